@@ -1,0 +1,1 @@
+"""Assembly of the window and the commands that need none."""

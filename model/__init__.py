@@ -1,0 +1,1 @@
+"""Channels, clips, edits and files: numpy and the standard library only."""
