@@ -1,1 +1,3 @@
-"""Assembly of the window and the commands that need none."""
+"""Assembly: the window, its actions, files, settings and the command line."""
+
+__version__ = "0.1.0"
