@@ -3,7 +3,7 @@
 # Windows and macOS without make: uv run main.py, uv run pytest
 VENV ?= .venv
 PY   := $(VENV)/bin/python
-FILE ?= resources/samples/wave.hermite
+FILE ?= resources/samples/bounce.hermite
 export VENV PYTHON UV
 
 .PHONY: run test bench screenshots clean

@@ -130,7 +130,7 @@ def display_problem() -> str | None:
     if not name:
         return (
             "No screen to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set); "
-            "without one, draw a clip with: hermite render FILE -o picture.png"
+            "the commands info, evaluate, convert and render work without one."
         )
     if not _x_answers():
         return f"The screen {name} (from DISPLAY) does not answer: start it, or set DISPLAY to one that does."

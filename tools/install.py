@@ -28,7 +28,7 @@ def wanted(kind: str) -> list[str]:
 def installer() -> list[str] | None:
     """The command that installs packages here: pip, or uv where the environment was made without pip."""
     if importlib.util.find_spec("pip"):
-        return [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"]
+        return [sys.executable, "-m", "pip", "install", "-qq", "--disable-pip-version-check", "--no-input"]
     if uv := os.environ.get("UV") or shutil.which("uv"):
         return [uv, "pip", "install", "--quiet", "--python", sys.executable]
     if importlib.util.find_spec("ensurepip"):

@@ -32,8 +32,9 @@ install() {
 
 # Every interpreter is asked, not only looked up: a pyenv shim answers to its name and then refuses to run.
 find_python() {
+    pyenv=${PYENV_ROOT:-$HOME/.pyenv}/versions
     for name in python3.13 python3.14 python3.12 python3 \
-        "${PYENV_ROOT:-$HOME/.pyenv}"/versions/3.1[2-9]*/bin/python; do
+        "$pyenv"/3.13*/bin/python "$pyenv"/3.14*/bin/python "$pyenv"/3.12*/bin/python; do
         if found=$(command -v "$name") && new_enough "$found"; then
             python=$found
             can_make_venv "$found" && return 0
