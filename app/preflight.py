@@ -49,10 +49,11 @@ WAYLAND_LIBRARIES = (
     Need("libwayland-cursor.so.0", "libwayland-cursor0", "libwayland-cursor", "wayland"),
     Need("libwayland-egl.so.1", "libwayland-egl1", "libwayland-egl", "wayland"),
 )
-# What the window tests run on: a screen without hardware and a window manager.
+# What the window tests run on: a screen without hardware, a window manager, and a hand for mouse and keys.
 TEST_PROGRAMS = (
     Need("Xvfb", "xvfb", "xorg-x11-server-Xvfb", "xorg-server-xvfb"),
     Need("openbox", "openbox", "openbox", "openbox"),
+    Need("xdotool", "xdotool", "xdotool", "xdotool"),
 )
 PACKAGE_MANAGERS = (
     ("apt", ("apt-get", "install", "-y", "--no-install-recommends")),

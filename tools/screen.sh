@@ -7,7 +7,7 @@ set -eu
 [ "$(uname)" = Linux ] || exec "$@"
 for program in Xvfb openbox; do
     command -v "$program" >/dev/null || {
-        echo "The window tests need a virtual screen: sudo apt-get install -y xvfb openbox, then make test again." >&2
+        echo "The window tests need a virtual screen: sudo apt-get install -y xvfb openbox xdotool, then make test again." >&2
         [ "${CI:-}" = true ] && exit 2
         exit 77
     }
