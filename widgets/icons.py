@@ -32,11 +32,11 @@ class TintedIcon(QIconEngine):
         ratio = painter.device().devicePixelRatio()
         painter.drawPixmap(rect, self._picture(rect.size() * ratio, mode, state))
 
-    @guarded(QPixmap())
+    @guarded(lambda icon: QPixmap())
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
         return self._picture(size, mode, state)
 
-    @guarded(QPixmap())
+    @guarded(lambda icon: QPixmap())
     def scaledPixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State, scale: float) -> QPixmap:
         pixmap = QPixmap(self._picture(size * scale, mode, state))
         pixmap.setDevicePixelRatio(scale)
