@@ -1,0 +1,144 @@
+"""The course's .anim: animation { range, numchannels, channels }, read as found, written as its own tokenizer reads.
+
+Source: UCSD CSE169, project 3 "Keyframe animation" (S. Rotenberg) and the files of its students.
+"""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.extrapolation import Extrapolation
+from model.formats.content import ChannelContent, Content
+from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
+from model.formats.keys import Words, run_from_text, text_from_run
+from model.formats.scanner import Scanner, Token
+from model.keyframe import Run, TangentRule
+
+# Words of the course; the word "step" is ours and is only read: its tokenizer would take it for slope 0.
+_WRITTEN: Final = {
+    int(TangentRule.FLAT): "flat",
+    int(TangentRule.LINEAR): "linear",
+    int(TangentRule.SMOOTH): "smooth",
+}
+_WORDS_IN: Final[Words] = {word.encode(): rule for rule, word in _WRITTEN.items()}
+_WORDS_OUT: Final[Words] = {**_WORDS_IN, b"step": int(TangentRule.STEP), b"stepped": int(TangentRule.STEP)}
+_MODES: Final = {mode.word: mode for mode in Extrapolation}
+
+
+def read(data: bytes) -> Content:
+    """The content of a course .anim; channels are named ``channel 0``, ``channel 1`` ... . Raises TextError."""
+    scanner = Scanner(data)
+    scanner.expect(b"animation")
+    scanner.expect(b"{", "'{' after 'animation'")
+    span: tuple[float, float] | None = None
+    announced: tuple[int, Token] | None = None
+    channels: list[ChannelContent] = []
+    while (token := scanner.next()).text != b"}":
+        if token.text == b"range" and span is None:
+            span = scanner.number("the start of the range"), scanner.number("the end of the range")
+        elif token.text == b"numchannels" and announced is None:
+            announced = scanner.count("the number of channels"), token
+        elif token.text == b"channel":
+            if len(channels) == MAX_CHANNELS:
+                raise TextError(token.start, f"more than {MAX_CHANNELS} channels")
+            channels.append(_read_channel(scanner, f"channel {len(channels)}"))
+        else:
+            missing = "'range', 'numchannels', 'channel' or '}'"
+            twice = " a second time" if token.text in (b"range", b"numchannels") else ""
+            raise TextError(token.start, f"expected {missing}, found {shown(token.text)}{twice}")
+    scanner.expect_end()
+    if span is None:
+        raise TextError(token.start, "the clip has no range", "add a line such as 'range 0.0 4.0' (seconds)")
+    if announced is None:
+        raise TextError(token.start, "the clip has no numchannels", f"add the line 'numchannels {len(channels)}'")
+    if announced[0] != len(channels):
+        problem = f"numchannels says {announced[0]}, but the file holds {len(channels)} channels"
+        raise TextError(announced[1].start, problem, "correct the number, or look for the channels that are missing")
+    return Content(*span, channels)
+
+
+def _read_channel(scanner: Scanner, name: str) -> ChannelContent:
+    index = scanner.peek()
+    if index.text != b"{":
+        if not index.text.isdigit():
+            raise TextError(index.start, f"expected '{{' or a channel number, found {shown(index.text)}")
+        scanner.next()
+    scanner.expect(b"{", "'{' of the channel")
+    modes: tuple[Extrapolation, Extrapolation] | None = None
+    run: Run | None = None
+    while (token := scanner.next()).text != b"}":
+        if token.text == b"extrapolate" and modes is None:
+            pre = scanner.one_of(_MODES, "the extrapolation before the first key")
+            post = scanner.one_of(_MODES, "the extrapolation after the last key")
+            modes = _MODES[pre], _MODES[post]
+        elif token.text == b"keys" and run is None:
+            run = _read_keys(scanner)
+        else:
+            twice = " a second time" if token.text in (b"extrapolate", b"keys") else ""
+            raise TextError(token.start, f"expected 'extrapolate', 'keys' or '}}', found {shown(token.text)}{twice}")
+    if run is None:
+        raise TextError(token.start, f"{name} has no keys block", "an empty channel is written 'keys 0 { }'")
+    pre_mode, post_mode = modes or (Extrapolation.CONSTANT, Extrapolation.CONSTANT)
+    return ChannelContent(name, run, pre_mode, post_mode)
+
+
+def _read_keys(scanner: Scanner) -> Run:
+    token = scanner.peek()
+    announced = scanner.count("the number of keys")
+    scanner.expect(b"{", "'{' of the keys")
+    start = scanner.position
+    # A key takes 8 bytes at least ("0 0 1 1" and a blank): a number beyond that is refused before anything is made.
+    if announced > min(MAX_KEYS, (len(scanner.data) - start) // 8 + 1):
+        raise TextError(token.start, f"{announced} keys are announced, more than the file can hold")
+    run = run_from_text(scanner.data, start, scanner.end_of_block(), _WORDS_IN, _WORDS_OUT, flags=False)
+    if len(run) != announced:
+        raise TextError(
+            token.start, f"{announced} keys are announced, but {len(run)} follow", "correct the number of keys"
+        )
+    run["broken"] = broken_of(run)
+    return run
+
+
+def broken_of(run: Run) -> NDArray[np.bool_]:
+    """Whether the tangents of each key turn apart, which the format does not say: other rules, or other slopes."""
+    rules_in, rules_out = run["rule_in"], run["rule_out"]
+    both_fixed = (rules_in == TangentRule.FIXED) & (rules_out == TangentRule.FIXED)
+    broken: NDArray[np.bool_] = (rules_in != rules_out) | (both_fixed & (run["slope_in"] != run["slope_out"]))
+    return broken
+
+
+def held(content: Content) -> Content:
+    """What is left of *content* in this format."""
+    channels = [
+        ChannelContent(f"channel {i}", _held_run(channel.run), channel.pre, channel.post)
+        for i, channel in enumerate(content.channels)
+    ]
+    return Content(content.start, content.end, channels)
+
+
+def _held_run(run: Run) -> Run:
+    """Slopes of a rule that the course does not know become numbers, a held span becomes a flat tangent."""
+    run = run.copy()
+    for side in ("in", "out"):
+        rules = run[f"rule_{side}"]
+        rules[rules == TangentRule.AUTO] = TangentRule.FIXED
+        rules[rules == TangentRule.STEP] = TangentRule.FLAT
+    run["broken"] = broken_of(run)
+    return run
+
+
+def write(content: Content) -> bytes:
+    """The text of *content*, of which only what ``held`` leaves is in it."""
+    content = held(content)
+    parts = [
+        f"animation {{\n  range {content.start!r} {content.end!r}\n  numchannels {len(content.channels)}\n",
+    ]
+    for channel in content.channels:
+        parts += [
+            f"  channel {{\n    extrapolate {channel.pre.word} {channel.post.word}\n    keys {len(channel.run)} {{\n",
+            text_from_run(channel.run, _WRITTEN, "      ", "\t", flags=False),
+            "    }\n  }\n",
+        ]
+    parts.append("}\n")
+    return "".join(parts).encode("ascii")

@@ -1,0 +1,146 @@
+"""The native text format, which loses nothing: a version line, then a clause or key a line, in a fixed order.
+
+There are no comments: what a file says is in the clip or is refused, so that opening and saving never drops a word.
+"""
+
+import re
+from typing import Final
+
+from model.extrapolation import Extrapolation
+from model.formats.content import ChannelContent, Content
+from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
+from model.formats.keys import Words, run_from_text, text_from_run
+from model.formats.scanner import Scanner, Token, checked_text, quoted
+from model.keyframe import Run, TangentRule
+
+VERSION: Final = 1
+_WRITTEN: Final = {int(rule): rule.word for rule in TangentRule if rule is not TangentRule.FIXED}
+_WORDS_OUT: Final[Words] = {word.encode(): rule for rule, word in _WRITTEN.items()}
+_WORDS_IN: Final[Words] = {word: rule for word, rule in _WORDS_OUT.items() if rule != TangentRule.STEP}
+_MODES: Final = {mode.word: mode for mode in Extrapolation}
+_COLOR: Final = re.compile(r"#[0-9a-fA-F]{6}\Z")
+
+
+def read(data: bytes) -> Content:
+    """The content of a native file. Raises TextError."""
+    scanner = Scanner(data)
+    scanner.expect(b"hermite")
+    _check_version(scanner)
+    title: str | None = None
+    span: tuple[float, float] | None = None
+    rate: float | None = None
+    channels: dict[str, ChannelContent] = {}
+    while (token := scanner.next()).text != b"end":
+        if token.text == b"title" and title is None:
+            title = scanner.text("the title")
+        elif token.text == b"range" and span is None:
+            span = scanner.number("the start of the range"), scanner.number("the end of the range")
+        elif token.text == b"rate" and rate is None:
+            rate = scanner.number("the frames per second")
+            if rate <= 0:
+                raise TextError(token.start, f"the frame rate is {rate:g}", "it must be above 0")
+        elif token.text == b"channel":
+            if len(channels) == MAX_CHANNELS:
+                raise TextError(token.start, f"more than {MAX_CHANNELS} channels")
+            channel = _read_channel(scanner)
+            if channel.name in channels:
+                raise TextError(token.start, f"a second channel is named {quoted(channel.name)}", "rename one of them")
+            channels[channel.name] = channel
+        else:
+            raise _unexpected(token, ("title", "range", "rate", "channel", "end"))
+    scanner.expect_end()
+    if span is None:
+        raise TextError(token.start, "the clip has no range", "add a line such as 'range 0.0 4.0' (seconds)")
+    if rate is None:
+        raise TextError(token.start, "the clip has no frame rate", "add a line such as 'rate 30.0'")
+    return Content(*span, list(channels.values()), rate, title or "")
+
+
+def _check_version(scanner: Scanner) -> None:
+    token = scanner.peek()
+    version = scanner.count("the version number of the format")
+    if version > VERSION:
+        problem = f"the file has format version {version}, this program reads version {VERSION}"
+        raise TextError(token.start, problem, "open it with a newer Hermite")
+    if version < 1:
+        raise TextError(token.start, f"there is no format version {version}")
+
+
+def _unexpected(token: Token, words: tuple[str, ...]) -> TextError:
+    known = ", ".join(words)
+    if token.text.startswith(b"#"):
+        return TextError(token.start, "found a comment, which this format has not", "put remarks into the title")
+    if token.text.decode("ascii", "replace") in words:
+        return TextError(token.start, f"found {shown(token.text)} a second time", "delete one of them")
+    remedy = "" if token.text else "the file is cut off; take an older copy"
+    return TextError(token.start, f"expected one of {known}, found {shown(token.text)}", remedy)
+
+
+def _read_channel(scanner: Scanner) -> ChannelContent:
+    name = scanner.text("the channel's name")
+    scanner.expect(b"{", "'{' of the channel")
+    unit: str | None = None
+    color: str | None = None
+    locked = False
+    modes: tuple[Extrapolation, Extrapolation] | None = None
+    run: Run | None = None
+    while (token := scanner.next()).text != b"}":
+        if token.text == b"unit" and unit is None:
+            unit = scanner.text("the unit")
+        elif token.text == b"color" and color is None:
+            color = _checked_color(scanner.text("the colour"), token.start)
+        elif token.text == b"locked" and not locked:
+            locked = True
+        elif token.text == b"extrapolate" and modes is None:
+            pre = scanner.one_of(_MODES, "the extrapolation before the first key")
+            post = scanner.one_of(_MODES, "the extrapolation after the last key")
+            modes = _MODES[pre], _MODES[post]
+        elif token.text == b"keys" and run is None:
+            run = _read_keys(scanner)
+        else:
+            raise _unexpected(token, ("unit", "color", "locked", "extrapolate", "keys", "}"))
+    if modes is None or run is None:
+        missing = "'extrapolate'" if modes is None else "'keys'"
+        raise TextError(token.start, f"expected {missing} in the channel {quoted(name)}, found its end")
+    return ChannelContent(name, run, *modes, unit or "", color, locked)
+
+
+def _read_keys(scanner: Scanner) -> Run:
+    token = scanner.expect(b"{", "'{' of the keys")
+    start = scanner.position
+    run = run_from_text(scanner.data, start, scanner.end_of_block(), _WORDS_IN, _WORDS_OUT, flags=True)
+    if len(run) > MAX_KEYS:
+        raise TextError(token.start, f"{len(run)} keys in one channel; at most {MAX_KEYS} are read")
+    return run
+
+
+def _checked_color(color: str, start: int = 0) -> str:
+    if not _COLOR.match(color):
+        raise TextError(start, f'the colour {quoted(color)} is not of the kind "#12ab9f"')
+    return color
+
+
+def held(content: Content) -> Content:
+    """What is left of *content* in this format: everything."""
+    return content
+
+
+def write(content: Content) -> bytes:
+    """The text of *content*, the same bytes for the same content. Raises TextError when a text is too long."""
+    parts = [f"hermite {VERSION}\n"]
+    if content.title:
+        parts.append(f"title {quoted(checked_text(content.title, 'the title'))}\n")
+    parts.append(f"range {content.start!r} {content.end!r}\nrate {content.frame_rate!r}\n")
+    for channel in content.channels:
+        parts.append(f"\nchannel {quoted(checked_text(channel.name, 'a channel name'))} {{\n")
+        if channel.unit:
+            parts.append(f"  unit {quoted(checked_text(channel.unit, 'a unit'))}\n")
+        if channel.color is not None:
+            parts.append(f"  color {quoted(_checked_color(channel.color))}\n")
+        if channel.locked:
+            parts.append("  locked\n")
+        parts.append(f"  extrapolate {channel.pre.word} {channel.post.word}\n  keys {{\n")
+        parts.append(text_from_run(channel.run, _WRITTEN, "    ", " ", flags=True))
+        parts.append("  }\n}\n")
+    parts.append("\nend\n")
+    return "".join(parts).encode("utf-8")
