@@ -157,7 +157,7 @@ def checkout(tmp_path: Path) -> Path:
     shutil.copy(ROOT / "tools" / "venv.sh", tmp_path / "tools")
     (tmp_path / "tools" / "install.py").write_text("import sys; print('ready', sys.argv[1])", encoding="utf-8")
     (tmp_path / "bin").mkdir()
-    for name in ("cat", "dirname", "id", "mkdir", "rm", "sed", "sh", "sleep"):
+    for name in ("cat", "chmod", "cut", "dirname", "id", "ln", "mkdir", "rm", "sh", "sleep"):
         program = shutil.which(name)
         assert program
         (tmp_path / "bin" / name).symlink_to(program)
@@ -186,22 +186,29 @@ def venv_sh(checkout: Path, **environment: str) -> subprocess.CompletedProcess[s
 def test_no_python_at_all_is_one_sentence_that_says_how_to_get_one(checkout: Path) -> None:
     assert "install uv" in one_sentence(venv_sh(checkout))
     assert not (checkout / ".venv").exists()
-
-
-@SCRIPTS_ONLY
-def test_where_apt_has_a_new_python_the_sentence_is_its_line(checkout: Path) -> None:
-    program(checkout / "bin" / "apt-cache", "echo '  Candidate: 3.13.5-1'")
-    assert "sudo apt-get install -y python3 python3-venv" in one_sentence(venv_sh(checkout))
+    program(checkout / "bin" / "apt-get", "exit 0")
+    assert "apt-get install -y python3 python3-venv" in one_sentence(venv_sh(checkout))
 
 
 @SCRIPTS_ONLY
 def test_a_python_without_venv_is_one_sentence_with_its_package(checkout: Path) -> None:
-    program(
-        checkout / "bin" / "python3",
-        f'case "$*" in *ensurepip*) exit 1;; esac; exec "{sys.executable}" "$@"',
-    )
+    program(checkout / "bin" / "apt-get", "exit 0")
+    program(checkout / "bin" / "python3", f'case "$*" in *ensurepip*) exit 1;; esac; exec "{sys.executable}" "$@"')
     version = "{}.{}".format(*sys.version_info)
-    assert f"sudo apt-get install -y python{version}-venv" in one_sentence(venv_sh(checkout))
+    assert f"apt-get install -y python{version}-venv" in one_sentence(venv_sh(checkout))
+
+
+@SCRIPTS_ONLY
+def test_without_a_python_uv_makes_the_environment(checkout: Path) -> None:
+    python = program(checkout / "fetched", f'exec "{sys.executable}" "$@"')
+    makes = f'for place; do :; done; mkdir -p "$place/bin"; ln -s "{python}" "$place/bin/python"'
+    program(checkout / ".local" / "bin" / "uv", makes)
+    assert venv_sh(checkout).stdout.endswith("ready run\n")
+    program(checkout / ".local" / "bin" / "uv", "echo 'no network' >&2; exit 1")
+    shutil.rmtree(checkout / ".venv")
+    done = venv_sh(checkout)
+    assert done.returncode == 2
+    assert "make PYTHON=" in done.stderr
 
 
 @SCRIPTS_ONLY

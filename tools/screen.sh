@@ -13,7 +13,7 @@ for program in Xvfb openbox; do
     }
 done
 work=$(mktemp -d)
-server= manager=
+server='' manager=''
 finish() {
     [ -z "$manager" ] || kill "$manager" 2>/dev/null || true
     [ -z "$server" ] || kill "$server" 2>/dev/null || true
