@@ -1,0 +1,142 @@
+"""Selection: which keys of which channels are chosen; a value that is never changed in place."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from model.channel import Channel
+
+type Ids = NDArray[np.int64]
+
+_NO_IDS: Ids = np.empty(0, np.int64)
+_NO_IDS.flags.writeable = False
+
+
+def _sorted_ids(ids: ArrayLike) -> Ids:
+    """*ids* in increasing order, each once, read-only."""
+    column = np.array(ids, np.int64).reshape(-1)
+    if len(column) > 1 and not bool((column[1:] > column[:-1]).all()):
+        column = np.unique(column)
+    column.flags.writeable = False
+    return column
+
+
+class Selection:
+    """Keys by channel and id, so that they stay the same keys whatever is edited around them."""
+
+    __slots__ = ("_ids",)
+
+    NONE: ClassVar["Selection"]
+
+    def __init__(self, ids: Mapping[Channel, Ids]) -> None:
+        self._ids = {channel: column for channel, column in ids.items() if len(column)}
+
+    @classmethod
+    def of(cls, ids: Mapping[Channel, ArrayLike]) -> "Selection":
+        """The keys with these ids, in any order; an id named twice counts once."""
+        return cls({channel: _sorted_ids(column) for channel, column in ids.items()})
+
+    @classmethod
+    def of_key(cls, channel: Channel, key_id: int) -> "Selection":
+        """One key."""
+        return cls({channel: _sorted_ids([key_id])})
+
+    @classmethod
+    def of_all(cls, channels: Iterable[Channel]) -> "Selection":
+        """Every key of *channels*."""
+        return cls({channel: _sorted_ids(channel.run()["id"]) for channel in channels if len(channel)})
+
+    def ids(self, channel: Channel) -> Ids:
+        """Ids of the selected keys of *channel*, increasing; empty if there are none."""
+        return self._ids.get(channel, _NO_IDS)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """The channels with a selected key, in the order in which they came in."""
+        return tuple(self._ids)
+
+    @property
+    def count(self) -> int:
+        """Number of selected keys."""
+        return sum(len(column) for column in self._ids.values())
+
+    def contains(self, channel: Channel, key_id: int) -> bool:
+        """Whether this key is selected."""
+        column = self._ids.get(channel)
+        if column is None:
+            return False
+        place = int(column.searchsorted(key_id))
+        return place < len(column) and int(column[place]) == key_id
+
+    def keys(self) -> Iterator[tuple[Channel, int]]:
+        """Every selected key as (channel, id)."""
+        for channel, column in self._ids.items():
+            for key_id in column.tolist():
+                yield channel, key_id
+
+    def union(self, other: "Selection") -> "Selection":
+        """The keys of both."""
+        return self._combined(other, np.union1d)
+
+    def toggled(self, other: "Selection") -> "Selection":
+        """The keys of one but not of both."""
+        return self._combined(other, np.setxor1d)
+
+    def minus(self, other: "Selection") -> "Selection":
+        """The keys that *other* does not hold."""
+        return Selection(
+            {
+                channel: np.setdiff1d(column, other._ids[channel], assume_unique=True)
+                if channel in other._ids
+                else column
+                for channel, column in self._ids.items()
+            }
+        )
+
+    def with_only(self, channels: Iterable[Channel]) -> "Selection":
+        """The keys of these channels alone."""
+        wanted = set(channels)
+        return Selection({channel: column for channel, column in self._ids.items() if channel in wanted})
+
+    def pruned(self, channels: Iterable[Channel]) -> "Selection":
+        """The keys that still exist in one of *channels*; costs a pass over the selected keys."""
+        kept = {}
+        for channel in self.with_only(channels).channels:
+            column = self._ids[channel]
+            alive = np.fromiter((key_id in channel for key_id in column.tolist()), np.bool_, len(column))
+            kept[channel] = column if alive.all() else column[alive]
+        return Selection(kept)
+
+    def _combined(self, other: "Selection", combine: Callable[[Ids, Ids], Ids]) -> "Selection":
+        ids = dict(self._ids)
+        for channel, column in other._ids.items():
+            ids[channel] = combine(ids[channel], column) if channel in ids else column
+        return Selection(ids)
+
+    __or__ = union
+    __sub__ = minus
+    __xor__ = toggled
+
+    def __bool__(self) -> bool:
+        return bool(self._ids)
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        if not isinstance(other, Selection) or self._ids.keys() != other._ids.keys():
+            return False
+        return all(np.array_equal(column, other._ids[channel]) for channel, column in self._ids.items())
+
+    def __hash__(self) -> int:
+        return hash(frozenset((channel, column.tobytes()) for channel, column in self._ids.items()))
+
+    def __repr__(self) -> str:
+        return f"Selection({', '.join(f'{channel.name}: {len(ids)} keys' for channel, ids in self._ids.items())})"
+
+
+Selection.NONE = Selection({})
