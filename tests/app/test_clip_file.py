@@ -1,0 +1,51 @@
+"""A file that another program writes is noticed; one that is only touched is not."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from app.clip_file import changed_since, fingerprint_of, open_clip
+from model.formats import FormatError
+
+CLIP = b"animation {\n range 0 1\n numchannels 1\n channel 0 {\n extrapolate constant constant\n keys 1 {\n 0 1 flat flat\n }\n }\n}\n"
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    file = tmp_path / "walk.anim"
+    file.write_bytes(CLIP)
+    return file
+
+
+def test_a_touched_file_is_the_same_file(path: Path) -> None:
+    known = fingerprint_of(str(path))
+    os.utime(path, ns=(1, 1))
+    assert not changed_since(str(path), known)
+
+
+def test_other_bytes_of_the_same_length_are_noticed(path: Path) -> None:
+    known = fingerprint_of(str(path))
+    path.write_bytes(CLIP.replace(b"0 1 flat", b"0 2 flat"))
+    os.utime(path, ns=(1, 1))
+    assert changed_since(str(path), known)
+
+
+def test_a_file_that_appears_where_none_was_is_a_change_and_one_that_goes_is_not(path: Path) -> None:
+    assert changed_since(str(path), None)
+    known = fingerprint_of(str(path))
+    path.unlink()
+    assert not changed_since(str(path), known)
+    assert fingerprint_of(str(path)) is None
+
+
+def test_opening_tells_format_and_absolute_path(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(path.parent)
+    opened = open_clip("walk.anim")
+    assert (opened.path, opened.format_name) == (str(path), "anim")
+    assert opened.fingerprint == fingerprint_of(str(path))
+
+
+def test_what_cannot_be_read_is_one_sentence_that_names_the_file(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="nothing.anim"):
+        open_clip(str(tmp_path / "nothing.anim"))
