@@ -1,0 +1,296 @@
+"""Document: owns the clip, is the only one to change it, and tells what changed; Gesture: a change under way."""
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from types import TracebackType
+
+import numpy as np
+
+from model.change import Change, Edit, Membership, Setting, Splice, Touched, check_whole, differing, put, validated
+from model.channel import Channel
+from model.clip import Clip
+from model.event import Event
+from model.keyframe import Run
+from model.labels import label_of
+from model.selection import Ids, Selection
+from model.session import Session
+
+__all__ = ["Change", "Document", "Edit", "Gesture", "Membership", "Setting", "Splice", "added_keys"]
+
+type Compute = Callable[[Clip], Iterable[Change]]
+# What is to be selected after a preview: these keys, or those that follow from the changes as stored.
+type Selecting = Selection | Callable[[Sequence[Change]], Selection] | None
+
+
+def added_keys(changes: Sequence[Change]) -> Selection:
+    """The keys that *changes* add: what a paste or an insertion selects."""
+    gone, come = _ids_by_channel(changes)
+    return Selection.of(
+        {channel: np.setdiff1d(ids, gone[channel]) if channel in gone else ids for channel, ids in come.items()}
+    )
+
+
+def _ids_by_channel(changes: Sequence[Change]) -> tuple[dict[Channel, Ids], dict[Channel, Ids]]:
+    """(ids taken out, ids put in) by channel, without the splices that only change keys in place."""
+    gone: dict[Channel, Ids] = {}
+    come: dict[Channel, Ids] = {}
+    for change in changes:
+        if not isinstance(change, Splice):
+            continue
+        before, after = change.before["id"], change.after["id"]
+        if len(before) == len(after) and (before == after).all():
+            continue
+        for ids, part in ((gone, before), (come, after)):
+            if len(part):
+                known = ids.get(change.channel)
+                ids[change.channel] = part if known is None else np.concatenate([known, part])
+    return gone, come
+
+
+class Document:
+    """A clip that is being edited. Widgets read `clip`, listen, and change it through gestures only.
+
+    Times in `changed` are the interval of the curve that is different now, -inf and inf where an extrapolation is.
+    """
+
+    def __init__(self, clip: Clip | None = None, session: Session | None = None) -> None:
+        self.changed = Event[Channel, float, float]()
+        self.setting_changed = Event[Channel | Clip, str]()
+        self.membership_changed = Event[()]()
+        self.clip_replaced = Event[()]()
+        self.committed = Event[Edit]()
+        self.gesture_changed = Event[()]()
+        self.clip = Clip() if clip is None else clip
+        self.session = Session() if session is None else session
+        self.gesture: Gesture | None = None
+        self._at_work = False
+
+    def begin(self, label: str) -> "Gesture":
+        """Open a gesture; RuntimeError if one is open, since two cannot both be worked out from their start."""
+        if self.gesture is not None:
+            raise RuntimeError(f"{self.gesture.label!r} is still going on")
+        self.gesture = Gesture(self, label)
+        self.gesture_changed.emit()
+        return self.gesture
+
+    def do(self, label: str, compute: Compute, *, selection: Selecting = None) -> Edit | None:
+        """Make the changes that *compute* gives as one undo step; None if nothing is different then."""
+        with self.begin(label) as gesture:
+            gesture.preview(compute, selection=selection)
+        return gesture.edit
+
+    def apply(self, edit: Edit) -> None:
+        """Make the changes of an edit that was recorded, and select what was selected after it: undo and redo."""
+        if self.gesture is not None:
+            raise RuntimeError(f"{self.gesture.label!r} is still going on")
+        touched = Touched()
+        self._put_all(edit.changes, touched)
+        active = edit.active_after if edit.active_after is not None else self.session.active
+        self._tell(touched, edit.selection_after, active)
+
+    def replace(self, clip: Clip) -> None:
+        """Edit another clip from now on; an open gesture is cancelled, and the session forgets the old channels."""
+        if self.gesture is not None:
+            self.gesture.cancel()
+        self.clip = clip
+        self.session.settle(clip.channels, Selection.NONE, None)
+        self.clip_replaced.emit()
+
+    def label_of(self, verb: str, selection: Selection, d_time: float = 0.0, d_value: float = 0.0) -> str:
+        """As "Move 14 keys of root.tx by +0.10 s"."""
+        return label_of(verb, selection, d_time, d_value)
+
+    def _put_all(self, changes: Iterable[Change], touched: Touched, *, new: bool = False) -> list[Change]:
+        """Make all *changes* and return them as stored; after an error nothing has changed.
+
+        Those that are *new*, and not the way back or forth, must also leave the clip as a clip has to be.
+        """
+        if self._at_work:
+            raise RuntimeError("the document is being changed already")
+        self._at_work = True
+        stored: list[Change] = []
+        try:
+            for change in changes:
+                stored.append(put(self.clip, validated(change) if new else change, touched))
+            if new and (touched.membership or touched.settings):
+                check_whole(self.clip, touched)
+        except BaseException:
+            for change in reversed(stored):
+                put(self.clip, change.inverse(), touched)
+            raise
+        finally:
+            self._at_work = False
+        return stored
+
+    def _tell(self, touched: Touched, selection: Selection, active: Channel | None) -> None:
+        """Tell everyone, after all is in its new state: listeners may read whatever they like."""
+        failure: Exception | None = None
+        tellings: list[Callable[[], None]] = []
+        session = self.session
+        if touched.membership or selection is not session.selection or active is not session.active:
+            tellings.append(partial(session.settle, self.clip.channels, selection, active))
+        if touched.membership:
+            tellings.append(self.membership_changed.emit)
+        tellings += [partial(self.setting_changed.emit, *setting) for setting in touched.settings]
+        tellings += [partial(self.changed.emit, channel, t0, t1) for channel, (t0, t1) in touched.intervals.items()]
+        for telling in tellings:
+            try:
+                telling()
+            except Exception as error:
+                failure = failure or error
+        if failure is not None:
+            raise failure
+
+
+class Gesture:
+    """One change by the user from its begin to commit or cancel; every preview is worked out from the start."""
+
+    def __init__(self, document: Document, label: str) -> None:
+        self.label = label
+        self.edit: Edit | None = None
+        self._document = document
+        self._selection = document.session.selection
+        self._active = document.session.active
+        self._put: list[Change] = []
+        self._fresh: dict[Channel, Ids] = {}
+
+    def __enter__(self) -> "Gesture":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, tb: TracebackType | None) -> None:
+        if kind is not None:
+            self.cancel()
+        elif self.open:
+            self.commit()
+
+    @property
+    def open(self) -> bool:
+        """Whether it can still be previewed, committed and cancelled."""
+        return self._document.gesture is self
+
+    @property
+    def changes(self) -> tuple[Change, ...]:
+        """The changes of the present preview as stored."""
+        return tuple(self._put)
+
+    @property
+    def covered(self) -> dict[Channel, Run]:
+        """The keys of the start that the present preview hides; they come back when it moves on."""
+        gone, come = _ids_by_channel(self._put)
+        covered = {}
+        for channel, ids in gone.items():
+            hidden = np.setdiff1d(ids, come[channel]) if channel in come else ids
+            parts = [
+                splice.before[np.isin(splice.before["id"], hidden)]
+                for splice in self._put
+                if isinstance(splice, Splice) and splice.channel is channel
+            ]
+            if any(len(part) for part in parts):
+                covered[channel] = np.concatenate(parts)
+        return covered
+
+    def preview(self, compute: Compute, *, selection: Selecting = None, label: str | None = None) -> None:
+        """Show the clip as *compute* changes it from the gesture's start, instead of the preview before.
+
+        An exception of *compute*, or a change that cannot be made, leaves the preview before in place.
+        *selection* is what is selected then (default: what was at the start), without keys that are gone.
+        """
+        document = self._require_open()
+        touched = Touched()
+        before, self._put = self._put, []
+        self._rewind(before, touched)
+        try:
+            self._put = self._stored(compute(document.clip), touched)
+            chosen = selection(self._put) if callable(selection) else selection
+        except BaseException:
+            self._rewind(self._put, touched)
+            self._put = document._put_all(before, touched)
+            raise
+        if label is not None:
+            self.label = label
+        document._tell(touched, self._without_gone(self._selection if chosen is None else chosen), self._active_now())
+        document.gesture_changed.emit()
+
+    def commit(self) -> Edit | None:
+        """Keep the present preview as one edit; None, and nothing is told, if nothing differs from the start."""
+        document = self._require_open()
+        changes = differing(self._put)
+        session = document.session
+        document.gesture = None
+        if changes:
+            self.edit = Edit(
+                self.label, tuple(changes), self._selection, session.selection, self._active, session.active
+            )
+        document.gesture_changed.emit()
+        if self.edit is not None:
+            document.committed.emit(self.edit)
+        return self.edit
+
+    def cancel(self) -> None:
+        """As if nothing had been; a gesture that is over stays as it ended."""
+        document = self._document
+        if not self.open:
+            return
+        touched = Touched()
+        self._rewind(self._put, touched)
+        self._put = []
+        document.gesture = None
+        document._tell(touched, self._selection, self._active)
+        document.gesture_changed.emit()
+
+    def _require_open(self) -> Document:
+        if not self.open:
+            raise RuntimeError(f"{self.label!r} is over")
+        return self._document
+
+    def _rewind(self, changes: Sequence[Change], touched: Touched) -> None:
+        """Take back what a preview put in."""
+        self._document._put_all([change.inverse() for change in reversed(changes)], touched)
+
+    def _stored(self, changes: Iterable[Change], touched: Touched) -> list[Change]:
+        """Put *changes* in; a new key has the same id in every preview, so that a drag can go on holding it."""
+        changes = list(changes)
+        asking = [i for i, change in enumerate(changes) if isinstance(change, Splice) and _asks_for_ids(change.after)]
+        used: dict[Channel, int] = {}
+        for i in asking:
+            splice = changes[i]
+            assert isinstance(splice, Splice)
+            changes[i] = self._with_known_ids(splice, used)
+        stored = self._document._put_all(changes, touched, new=True)
+        for i in asking:
+            wanted, got = changes[i], stored[i]
+            assert isinstance(wanted, Splice)
+            assert isinstance(got, Splice)
+            new = got.after["id"][wanted.after["id"] == 0]
+            if len(new):
+                known = self._fresh.get(got.channel)
+                self._fresh[got.channel] = new if known is None else np.concatenate([known, new])
+        return stored
+
+    def _with_known_ids(self, splice: Splice, used: dict[Channel, int]) -> Splice:
+        known = self._fresh.get(splice.channel)
+        if known is None:
+            return splice
+        after = splice.after.copy()
+        at = used.get(splice.channel, 0)
+        places = np.flatnonzero(after["id"] == 0)[: len(known) - at]
+        after["id"][places] = known[at : at + len(places)]
+        used[splice.channel] = at + len(places)
+        return splice._replace(after=after)
+
+    def _without_gone(self, selection: Selection) -> Selection:
+        gone, come = _ids_by_channel(self._put)
+        hidden = {
+            channel: np.setdiff1d(ids, come[channel]) if channel in come else ids
+            for channel, ids in gone.items()
+            if len(selection.ids(channel))
+        }
+        return selection.minus(Selection.of(hidden)) if hidden else selection
+
+    def _active_now(self) -> Channel | None:
+        """The active channel, which the user may have changed meanwhile; the one of the start if it is gone."""
+        return self._document.session.active or self._active
+
+
+def _asks_for_ids(run: Run) -> bool:
+    return bool(len(run)) and not bool(run["id"].all())
