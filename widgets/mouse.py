@@ -1,0 +1,253 @@
+"""MouseRouter: raw Qt events drive the chosen tool; hints, the pointer's shape and scrolling at the edge."""
+
+from collections.abc import Callable
+from typing import ClassVar
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QContextMenuEvent,
+    QKeyEvent,
+    QKeySequence,
+    QMouseEvent,
+    QNativeGestureEvent,
+    QSinglePointEvent,
+    QWheelEvent,
+)
+
+from widgets.graph import Graph
+from widgets.guard import guarded
+from widgets.strokes import State, Strokes
+from widgets.tools import TOOLS
+from widgets.tools.base import Button, Modifier, Point, Tool
+from widgets.tools.navigate import Navigation, Rest, edge_push, pinched, wheeled
+
+EDGE_INTERVAL = 16
+
+MODIFIER_OF_KEY = {
+    Qt.Key.Key_Shift: Modifier.ShiftModifier,
+    Qt.Key.Key_Control: Modifier.ControlModifier,
+    Qt.Key.Key_Alt: Modifier.AltModifier,
+    Qt.Key.Key_Meta: Modifier.MetaModifier,
+}
+
+
+class MouseRouter(QObject):
+    """Takes the view's raw events, drives the chosen tool with them, and scrolls the view at its edge.
+
+    The view hands every event of its own and of its viewport to handle().
+    """
+
+    hint_changed = Signal(str)
+    context_menu_requested = Signal(QPoint, object)  # global position, Hit
+
+    def __init__(self, graph: Graph, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.graph = graph
+        self.navigation = Navigation(graph)
+        self.strokes = Strokes(self._taker)
+        self._tools: dict[str, Tool] = {}
+        self._hint = ""
+        self._pointer: tuple[QPointF, Qt.MouseButton] | None = None  # where it is and what is held, while over the view
+        self._modifiers = Modifier.NoModifier
+        self._edge = QTimer(self, interval=EDGE_INTERVAL)
+        self._edge.timeout.connect(self._scroll)
+        session = graph.document.session
+        session.option_changed.connect(self._option_changed)
+        graph.document.clip_replaced.connect(self.cancel)
+        self._shown = self.tool
+        self._shown.showing(True)
+
+    @property
+    def tool(self) -> Tool:
+        """The tool that session.tool names."""
+        name = self.graph.document.session.tool
+        if name not in self._tools:
+            self._tools[name] = TOOLS[name].factory(self.graph)
+        return self._tools[name]
+
+    @property
+    def busy(self) -> bool:
+        """Whether the mouse is doing something that cancel() would take back."""
+        return self.strokes.busy
+
+    def cancel(self) -> None:
+        """End the stroke, if there is one, as if it had never begun."""
+        self._edge.stop()
+        self.strokes.cancel()
+        self._tell()
+
+    def handle(self, event: QEvent) -> bool:
+        """Take one raw event; True if the view is to do nothing more with it."""
+        method = self._HANDLERS.get(event.type())
+        if method is None:
+            return False
+        try:
+            return method(self, event)
+        except Exception:
+            self.cancel()  # an error must not leave half a gesture behind
+            raise
+
+    # Mouse
+
+    def _press(self, event: QMouseEvent) -> bool:
+        alone = event.buttons() == event.button()
+        double = event.type() == QEvent.Type.MouseButtonDblClick
+        self.strokes.press(self._point_of(event), double=double, alone=alone)
+        return self._taken(event)
+
+    def _move(self, event: QMouseEvent) -> bool:
+        self.strokes.move(self._point_of(event), event.buttons())
+        return self._taken(event)
+
+    def _release(self, event: QMouseEvent) -> bool:
+        point = self._point_of(event)
+        still = isinstance(self.navigation.current, Rest | None)
+        asks = point.button == Button.RightButton and self.busy and still
+        self.strokes.release(point, event.buttons())
+        if not self.busy:
+            self._edge.stop()
+            self.strokes.move(point, event.buttons())
+        if asks:
+            self.context_menu_requested.emit(event.globalPosition().toPoint(), self.tool.hit(point))
+        return self._taken(event)
+
+    def _wheel(self, event: QWheelEvent) -> bool:
+        wheeled(self.graph, event)
+        if self.busy:
+            self._again()
+        event.accept()
+        return True
+
+    def _pinch(self, event: QNativeGestureEvent) -> bool:
+        return pinched(self.graph, event)
+
+    def _leave(self, event: QEvent) -> bool:
+        if not self.busy:
+            self._pointer = None
+            self.tool.leave()
+            self._say("")
+        return False
+
+    def _menu(self, event: QContextMenuEvent) -> bool:
+        if event.reason() == QContextMenuEvent.Reason.Mouse:
+            return True  # the release of the button asks for it, unless the button ended a drag
+        spot = self.graph.viewport().mapFromGlobal(event.globalPos())
+        self.context_menu_requested.emit(event.globalPos(), self.tool.hit(self._point(QPointF(spot))))
+        return True
+
+    # Keys and focus
+
+    def _key(self, event: QKeyEvent) -> bool:
+        modifier = MODIFIER_OF_KEY.get(Qt.Key(event.key()))
+        if modifier is not None:
+            pressed = event.type() == QEvent.Type.KeyPress
+            self._modifiers = event.modifiers() | modifier if pressed else event.modifiers() & ~modifier
+            self._again()
+            return False
+        if event.type() != QEvent.Type.KeyPress or not self.busy:
+            return False
+        if event.key() == Qt.Key.Key_Escape or event.matches(QKeySequence.StandardKey.Undo):
+            self.cancel()
+        return True  # no command may change the clip in the middle of a drag
+
+    def _shortcut(self, event: QKeyEvent) -> bool:
+        if self.busy:
+            event.accept()  # so that it comes as a key press, not as a shortcut
+        return self.busy
+
+    def _lose(self, event: QEvent) -> bool:
+        self.cancel()
+        return False
+
+    _HANDLERS: ClassVar[dict[QEvent.Type, Callable[..., bool]]] = {
+        QEvent.Type.MouseButtonPress: _press,
+        QEvent.Type.MouseButtonDblClick: _press,
+        QEvent.Type.MouseMove: _move,
+        QEvent.Type.MouseButtonRelease: _release,
+        QEvent.Type.Wheel: _wheel,
+        QEvent.Type.NativeGesture: _pinch,
+        QEvent.Type.Leave: _leave,
+        QEvent.Type.ContextMenu: _menu,
+        QEvent.Type.KeyPress: _key,
+        QEvent.Type.KeyRelease: _key,
+        QEvent.Type.ShortcutOverride: _shortcut,
+        QEvent.Type.FocusOut: _lose,
+        QEvent.Type.WindowDeactivate: _lose,
+        QEvent.Type.Hide: _lose,
+        QEvent.Type.Close: _lose,
+    }
+
+    # What the handlers share
+
+    def _point(self, spot: QPointF, button: Qt.MouseButton = Button.NoButton) -> Point:
+        x, y = spot.x(), spot.y()
+        return Point(x, y, self.graph.time_from_x(x), self.graph.value_from_y(y), self._modifiers, button)
+
+    def _point_of(self, event: QSinglePointEvent) -> Point:
+        self._modifiers = event.modifiers()
+        self._pointer = (event.position(), event.buttons())
+        return self._point(event.position(), event.button())
+
+    def _again(self) -> None:
+        """The pointer stands still, but the view under it or the modifiers have changed."""
+        if self._pointer is not None:
+            spot, held = self._pointer
+            self.strokes.move(self._point(spot), held)
+            self._tell()
+
+    def _taken(self, event: QEvent) -> bool:
+        self._watch_edge()
+        self._tell()
+        event.accept()
+        return True
+
+    def _taker(self, point: Point) -> Tool:
+        return self.navigation if self.navigation.takes(point) else self.tool
+
+    def _tell(self) -> None:
+        """Say what the mouse does here, and shape the pointer for it."""
+        tool, point = self.strokes.tool, self._pointer
+        if tool is None or point is None:
+            return
+        drag = tool.current
+        self._say(drag.hint if drag is not None else tool.hints(tool.hovered, self._modifiers))
+        shape = drag.cursor if drag is not None else tool.cursor(tool.hovered, self._modifiers)
+        if self.graph.viewport().cursor().shape() != shape:
+            self.graph.viewport().setCursor(shape)
+
+    def _say(self, hint: str) -> None:
+        if hint != self._hint:
+            self._hint = hint
+            self.hint_changed.emit(hint)
+
+    def _option_changed(self, name: str) -> None:
+        if name == "tool":
+            self.cancel()
+            self._shown.showing(False)
+            self._shown = self.tool
+            self._shown.showing(True)
+            self._again()
+
+    # The edge of the view
+
+    def _push(self) -> tuple[float, float]:
+        tool = self.strokes.tool
+        if self.strokes.state is not State.DRAGGING or tool is None or tool.current is None or self._pointer is None:
+            return 0.0, 0.0
+        return edge_push(self.graph.plot_rect, self.strokes.start, self._pointer[0], tool.current.scrolls)
+
+    def _watch_edge(self) -> None:
+        if any(self._push()):
+            if not self._edge.isActive():
+                self._edge.start()
+        else:
+            self._edge.stop()
+
+    @guarded()
+    def _scroll(self) -> None:
+        dx, dy = self._push()
+        if dx or dy:
+            self.graph.pan_pixels(-dx, -dy)
+            self._again()
+        else:
+            self._edge.stop()

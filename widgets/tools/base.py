@@ -1,0 +1,155 @@
+"""Tool and Drag: what the mouse does now, and one gesture of it from press to end."""
+
+from typing import ClassVar, NamedTuple, Protocol
+
+from PySide6.QtCore import Qt
+
+from model.document import Gesture
+from widgets.graph import Graph
+from widgets.hit_test import EMPTY, Hit
+
+Button = Qt.MouseButton
+Modifier = Qt.KeyboardModifier
+Cursor = Qt.CursorShape
+
+
+class Point(NamedTuple):
+    """The pointer at one event: viewport pixels, the same in time and value, and what is held down."""
+
+    x: float
+    y: float
+    time: float
+    value: float
+    modifiers: Qt.KeyboardModifier = Modifier.NoModifier
+    button: Qt.MouseButton = Button.NoButton
+
+    @property
+    def shift(self) -> bool:
+        """Shift: add, or lock the first direction of a drag."""
+        return bool(self.modifiers & Modifier.ShiftModifier)
+
+    @property
+    def ctrl(self) -> bool:
+        """Ctrl: insert, subtract, or the other way of snapping in a drag."""
+        return bool(self.modifiers & Modifier.ControlModifier)
+
+    @property
+    def alt(self) -> bool:
+        """Alt: the column, or a tenth of the speed in a drag."""
+        return bool(self.modifiers & Modifier.AltModifier)
+
+
+class Drag(Protocol):
+    """One gesture of the mouse: made where it begins, moved, then finished or cancelled, and never used again."""
+
+    cursor: ClassVar[Qt.CursorShape]
+    scrolls: ClassVar[bool]
+
+    @property
+    def hint(self) -> str:
+        """What has been done so far, as "dt +0.10 s  dv +0.25", then what the modifiers would change."""
+
+    def move(self, point: Point) -> None:
+        """The pointer is at *point*: preview from the gesture's start."""
+
+    def finish(self, point: Point) -> None:
+        """The button went up: keep what the last preview showed."""
+
+    def cancel(self) -> None:
+        """Esc, the right button or a lost pointer: as if nothing had been."""
+
+
+class EditDrag:
+    """A drag that changes the clip: one document gesture, one undo step.
+
+    Subclasses call this __init__ last: an error in theirs must not leave a gesture open.
+    """
+
+    cursor: ClassVar[Qt.CursorShape] = Cursor.ClosedHandCursor
+    scrolls: ClassVar[bool] = True
+
+    def __init__(self, graph: Graph, label: str) -> None:
+        self.graph = graph
+        self.gesture: Gesture = graph.document.begin(label)
+
+    def finish(self, point: Point) -> None:
+        """Commit; a gesture that changed nothing leaves no undo step."""
+        self.gesture.commit()
+
+    def cancel(self) -> None:
+        """Take every preview back."""
+        self.gesture.cancel()
+
+
+class Tool:
+    """What the left button does in the plot while this tool is chosen.
+
+    mouse.py calls press, then click, or drag and release; hover between strokes; cancel at any time in one.
+    """
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self.current: Drag | None = None
+        self.pressed: Point | None = None
+        self.hovered: Hit = EMPTY
+
+    # What a stroke consists of
+
+    def press(self, point: Point) -> bool:
+        """The button went down; True if the drag begins at once, without the usual 4 px."""
+        self.pressed = point
+        return False
+
+    def drag(self, point: Point) -> None:
+        """The pointer moved in a drag; the first call decides which gesture it is."""
+        if self.current is None:
+            assert self.pressed is not None
+            self.current = self.drag_from(self.pressed)
+        self.current.move(point)
+
+    def release(self, point: Point) -> None:
+        """The drag ended where it was meant to."""
+        current, self.current, self.pressed = self.current, None, None
+        if current is not None:
+            current.finish(point)
+
+    def click(self, point: Point) -> None:
+        """The button went up where it went down."""
+        self.pressed = None
+
+    def double_click(self, point: Point) -> bool:
+        """The second press at one spot; False if it means no more than another press."""
+        return False
+
+    def hover(self, point: Point) -> None:
+        """The pointer moved with no button down."""
+
+    def leave(self) -> None:
+        """The pointer left the view, or a stroke begins: show nothing of a hover."""
+
+    def cancel(self) -> None:
+        """Esc, the right button or a lost pointer: as if the button had never gone down."""
+        current, self.current, self.pressed = self.current, None, None
+        if current is not None:
+            current.cancel()
+
+    # What differs from tool to tool
+
+    def drag_from(self, start: Point) -> Drag:
+        """The gesture that a drag from *start* is."""
+        raise NotImplementedError
+
+    def hit(self, point: Point) -> Hit:
+        """What a press at *point* would meet."""
+        raise NotImplementedError
+
+    def hints(self, hit: Hit, modifiers: Qt.KeyboardModifier) -> str:
+        """What the mouse does here, for the status bar."""
+        return ""
+
+    def cursor(self, hit: Hit, modifiers: Qt.KeyboardModifier) -> Qt.CursorShape:
+        """The pointer's shape here."""
+        return Cursor.ArrowCursor
+
+    def showing(self, shown: bool) -> None:
+        """The tool was chosen, or another one was: show or take away what it draws."""

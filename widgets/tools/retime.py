@@ -1,0 +1,68 @@
+"""RetimeTool: stretch keys in time between two brackets; the other end stays where it is."""
+
+from typing import ClassVar
+
+from PySide6.QtCore import QRectF, Qt
+
+from model.labels import counted
+from model.selection import Selection
+from widgets.hit_test import Hit
+from widgets.tools.base import Cursor, Drag, Modifier, Point
+from widgets.tools.scale import MIN_FACTOR, PADDING, Bounds, ScaleKeys, ScaleTool
+
+
+class RetimeKeys(ScaleKeys):
+    """One stretch in time alone, which never turns the order of the keys round."""
+
+    cursor: ClassVar[Qt.CursorShape] = Cursor.SizeHorCursor
+    verb: ClassVar[str] = "Retime"
+
+    def time_factor(self, factor: float) -> float:
+        """*factor*, never so small that keys could meet."""
+        return max(factor, MIN_FACTOR)
+
+    @property
+    def hint(self) -> str:
+        """The factor so far."""
+        return f"{self._amount(*self.factors)} · Ctrl: no snap · Alt: fine · Esc: cancel"
+
+
+class RetimeTool(ScaleTool):
+    """Works on the selected keys, or on all shown ones if fewer than two are selected."""
+
+    drag_class = RetimeKeys
+
+    def keys(self) -> Selection:
+        """The selected keys that may be edited, or all that are shown."""
+        chosen = super().keys()
+        if chosen.count > 1:
+            return chosen
+        shown = self.session.shown_channels(self.graph.document.clip)
+        return Selection.of_all(channel for channel in shown if not channel.locked)
+
+    def sides(self, bounds: Bounds) -> list[tuple[int, int]]:
+        """Only the two ends in time."""
+        return [(-1, 0), (1, 0)] if bounds.t1 > bounds.t0 else []
+
+    def box(self, bounds: Bounds) -> QRectF:
+        """As high as the plot."""
+        x0, x1 = self.graph.x_from_time(bounds.t0), self.graph.x_from_time(bounds.t1)
+        plot = self.graph.plot_rect
+        return QRectF(x0 - PADDING, plot.top(), x1 - x0 + 2 * PADDING, plot.height()).adjusted(0, 2, 0, -2)
+
+    def pivot_of(self, bounds: Bounds) -> None:
+        """The end that stays is plain to see."""
+        return
+
+    def drag_inside(self, start: Point, bounds: Bounds, grip: tuple[float, float]) -> Drag:
+        """The nearer end follows, the other stays."""
+        later = grip[0] >= bounds.center[0]
+        pivot = bounds.at((-1, 0)) if later else bounds.at((1, 0))
+        return self.drag_class(self.graph, start, self.keys(), pivot, grip, (True, False))
+
+    def hints(self, hit: Hit, modifiers: Qt.KeyboardModifier) -> str:
+        """What the brackets do."""
+        if hit.kind == "frame" or (hit.kind == "key" and not modifiers & Modifier.ShiftModifier):
+            count = counted(self.keys().count, "key")
+            return f"Drag: stretch {count} in time about the other end · Ctrl: no snap · Alt: fine"
+        return super().hints(hit, modifiers)
