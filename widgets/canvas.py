@@ -1,0 +1,240 @@
+"""Canvas: the one graphics item that paints all curves, and the listener that knows which pixels a change touches."""
+
+from math import ceil, floor
+from typing import TYPE_CHECKING, Final
+
+from PySide6.QtCore import QRect, QRectF, Qt, QTimer
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter
+from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
+
+from model.channel import Channel
+from model.clip import Clip
+from model.document import Document
+from model.sampling import Window
+from model.selection import Selection
+from widgets import rulers
+from widgets.backdrop import Backdrop
+from widgets.guard import guarded
+from widgets.layers import LAYERS, Plane
+from widgets.layers.handles import KNOB, LENGTH
+from widgets.layers.labels import hint_of, labels_of
+from widgets.stage import LABEL_SIZE, Overlay, Stage, in_degrees, pixel_size
+from widgets.theme import Theme
+from widgets.ticks import Ticks, ticks_of
+from widgets.traces import Trace, live_channels, traces_of
+
+if TYPE_CHECKING:
+    from widgets.curve_view import CurveView
+
+# How far, in logical pixels, a key's mark and handles reach beside the curve.
+REACH: Final = LENGTH + 2 * KNOB + 4
+
+
+class Canvas(QGraphicsItem):
+    """Paints two planes: the backdrop at rest, and over it what is under the hand; a change repaints only its strip."""
+
+    def __init__(self, view: "CurveView", document: Document, theme: Theme) -> None:
+        super().__init__()
+        self.setFlag(QGraphicsItem.GraphicsItemFlag.ItemUsesExtendedStyleOption)
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+        self.setZValue(-100)
+        self.overlay = Overlay()
+        self.backdrop = Backdrop()
+        self._view = view
+        self._document = document
+        self._theme = theme
+        self._touched: set[Channel] = set()
+        self._traces: tuple[tuple[Trace, ...], tuple[Trace, ...]] | None = None
+        self._stage: Stage | None = None
+        self._ticks: tuple[Window, bool, tuple[Ticks, Ticks]] | None = None
+        self._selection: Selection | None = None
+        self._playhead = document.session.playhead
+        self._timer = QTimer(view)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._refine)
+        self._listen()
+
+    def _listen(self) -> None:
+        document, session = self._document, self._document.session
+        document.changed.connect(self._on_changed)
+        document.setting_changed.connect(self._on_setting)
+        document.gesture_changed.connect(self._on_gesture)
+        document.membership_changed.connect(self.restyle)
+        document.clip_replaced.connect(self._on_replaced)
+        session.selection_changed.connect(self._on_selection)
+        session.active_changed.connect(self.restyle)
+        session.visibility_changed.connect(self.restyle)
+        session.playhead_changed.connect(self._on_playhead)
+        self._theme.theme_changed.connect(self.restyle)
+
+    # --- Qt
+
+    @guarded(QRectF())
+    def boundingRect(self) -> QRectF:
+        """The whole viewport, in logical pixels."""
+        return QRectF(self._view.viewport().rect())
+
+    @guarded()
+    def paint(self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None) -> None:
+        """Paint the exposed part, in the pixels of the screen."""
+        device = painter.device()
+        ratio = device.devicePixelRatioF() if device is not None else 1.0
+        stage = self.stage(ratio)
+        exposed = option.exposedRect
+        painter.save()
+        try:
+            painter.scale(1 / ratio, 1 / ratio)
+            self._paint(painter, stage, QRectF(exposed.topLeft() * ratio, exposed.bottomRight() * ratio))
+        finally:
+            painter.restore()
+        if self.backdrop.busy and not self._timer.isActive():
+            self._timer.start(0)
+
+    def _paint(self, painter: QPainter, stage: Stage, exposed: QRectF) -> None:
+        window, plot = stage.window, stage.plot()
+        if exposed.intersects(plot):
+            painter.save()
+            painter.setClipRect(plot, Qt.ClipOperation.IntersectClip)
+            self.backdrop.prepare(stage)
+            self.backdrop.paint(painter, stage)
+            drawn = self.backdrop.contents
+            live = (*[trace for trace in stage.resting if trace.channel not in drawn], *stage.live)
+            x0 = max(floor(exposed.left()) - 1.0, window.left)
+            x1 = min(ceil(exposed.right()) + 1.0, window.right)
+            for layer in LAYERS:
+                if layer.plane is Plane.LIVE:
+                    layer.draw(painter, stage, live, x0, x1)
+            painter.restore()
+        if exposed.left() < window.left:
+            rulers.draw_value_ruler(painter, stage)
+        if exposed.top() < window.top:
+            rulers.draw_time_ruler(painter, stage)
+            rulers.draw_playhead_head(painter, stage)
+
+    # --- the stage
+
+    def stage(self, ratio: float) -> Stage:
+        """What there is to paint now on a screen with this device pixel ratio."""
+        window = self._view.window_at(ratio)
+        stage = self._stage
+        if stage is not None and stage.window == window and self._traces is not None:
+            return stage
+        if self._traces is None:
+            every = traces_of(self._document, self._theme)
+            live = live_channels(self._document, self._touched)
+            self._traces = (
+                tuple(trace for trace in every if trace.channel not in live),
+                tuple(trace for trace in every if trace.channel in live),
+            )
+        font = self._view.font()
+        degrees = in_degrees((*self._traces[0], *self._traces[1]))
+        if self._ticks is None or self._ticks[:2] != (window, degrees):
+            measuring = QFont(font)
+            measuring.setPixelSize(max(round(pixel_size(font) * LABEL_SIZE * window.unit), 1))
+            self._ticks = (window, degrees, ticks_of(window, QFontMetricsF(measuring), degrees=degrees))
+        stage = Stage(self._document, self._theme, window, *self._traces, self.overlay, *self._ticks[2], base_font=font)
+        stage.labels, stage.hint = labels_of(stage), hint_of(stage)
+        self._stage = stage
+        self._selection = self._document.session.selection
+        return stage
+
+    def restyle(self, *_: object) -> None:
+        """Which channels are drawn, or how, has changed."""
+        self._traces = self._stage = None
+        self.repaint_all()
+
+    def reframe(self) -> None:
+        """The window onto time and value has changed."""
+        self._stage = None
+        self.repaint_all()
+
+    def forget(self) -> None:
+        """Keep no pixel of what has been drawn."""
+        self.backdrop.drop()
+        self._ticks = None
+        self.restyle()
+
+    def settle(self) -> None:
+        """Finish the picture that is being refined, now."""
+        while self._stage is not None and self.backdrop.busy:
+            self._refine()
+
+    def _refine(self) -> None:
+        if self._stage is None or not self.backdrop.busy:
+            return
+        if self.backdrop.refine(self.stage(self._stage.window.unit)):
+            self.repaint_all()
+        elif self.backdrop.busy:
+            self._timer.start(0)
+
+    # --- which pixels
+
+    def repaint_all(self) -> None:
+        """Repaint everything in the next turn of the event loop."""
+        self._view.viewport().update()
+
+    def repaint(self, box: QRectF) -> None:
+        """Repaint a part, in logical pixels."""
+        if not box.isEmpty():
+            self._view.viewport().update(box.toAlignedRect().adjusted(-1, -1, 1, 1))
+
+    def repaint_times(self, t0: float, t1: float, margin: float = REACH) -> None:
+        """Repaint the plot between two times and so much beside them."""
+        plot = self._view.plot_rect
+        x0 = min(max(self._view.x_from_time(t0) - margin, plot.left()), plot.right())
+        x1 = min(max(self._view.x_from_time(t1) + margin, plot.left()), plot.right())
+        if x1 > x0:
+            left, right = floor(x0), ceil(x1)
+            self._view.viewport().update(QRect(left, floor(plot.top()), right - left, ceil(plot.height()) + 1))
+
+    def _on_changed(self, channel: Channel, t0: float, t1: float) -> None:
+        if self._document.gesture is not None and channel not in self._touched:
+            self._touched.add(channel)
+            self._restyle_quietly()
+        self.backdrop.mark(channel, t0, t1)
+        if self._document.session.shown(channel):
+            self.repaint_times(t0, t1)
+            self._relabel(channel, t0, t1)
+
+    def _relabel(self, channel: Channel, t0: float, t1: float) -> None:
+        stage = self._stage
+        if stage is None:
+            return
+        if t1 >= stage.window.t1:
+            before, stage.labels = stage.labels, labels_of(stage)
+            if before != stage.labels:
+                for label in (*before, *stage.labels):
+                    left, top, width, height = (side / stage.window.unit for side in label.box)
+                    self.repaint(QRectF(left, top, width, height))
+        hint = hint_of(stage)
+        if hint != stage.hint:
+            stage.hint = hint
+            self.repaint_all()
+
+    def _restyle_quietly(self) -> None:
+        """Who is live has changed, but no pixel: what is live is drawn over the backdrop just as it was in it."""
+        self._traces = self._stage = None
+
+    def _on_gesture(self) -> None:
+        if self._document.gesture is None and self._touched:
+            self._touched.clear()
+            self.restyle()
+
+    def _on_selection(self) -> None:
+        if self._document.session.selection != self._selection:
+            self.restyle()
+
+    def _on_setting(self, target: Channel | Clip, field: str) -> None:
+        self.restyle()
+
+    def _on_replaced(self) -> None:
+        self._touched.clear()
+        self.overlay = Overlay()
+        self.forget()
+
+    def _on_playhead(self) -> None:
+        before, self._playhead = self._playhead, self._document.session.playhead
+        view = self._view
+        for time in (before, self._playhead):
+            self.repaint_times(time, time, 2.0)
+            self.repaint(rulers.head_rect(view.window_at(1.0), time))

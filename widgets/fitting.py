@@ -1,0 +1,46 @@
+"""Which range shows all of a clip, or its selected keys."""
+
+from math import inf
+from typing import Final
+
+from model.document import Document
+from widgets.view_range import ViewRange, fitted
+
+MARGINS: Final = (0.04, 0.10)
+# Around a lone selected key its neighbours are shown too, so that something of the curve is seen.
+ALONE: Final = 1
+
+
+def all_fitted(document: Document) -> ViewRange:
+    """The shown channels from the first key to the last, lowest to highest; the clip's range if there is no key."""
+    clip, session = document.clip, document.session
+    channels = session.shown_channels(clip) or clip.channels
+    t0, t1, v0, v1 = inf, -inf, inf, -inf
+    for channel in channels:
+        first, last = channel.first, channel.last
+        if first is None or last is None:
+            continue
+        low, high = channel.extrema()
+        t0, t1, v0, v1 = min(t0, first.time), max(t1, last.time), min(v0, low), max(v1, high)
+    if t0 > t1:
+        start, end = (clip.start, clip.end) if clip.end > clip.start else (0.0, 1.0)
+        return fitted(start, end, 0.0, 1.0, MARGINS)
+    if t0 == t1 and clip.start <= t0 <= clip.end and clip.end > clip.start:
+        t0, t1 = clip.start, clip.end
+    return fitted(t0, t1, v0, v1, MARGINS)
+
+
+def selection_fitted(document: Document) -> ViewRange | None:
+    """The selected keys and the curves between them; None if nothing is selected."""
+    selection = document.session.selection
+    t0, t1, v0, v1 = inf, -inf, inf, -inf
+    for channel in selection.channels:
+        run = channel.run_of(selection.ids(channel))
+        if len(run) == 1:
+            run = channel.keys_between(float(run["time"][0]), float(run["time"][0]), around=ALONE)
+        start, end = float(run["time"][0]), float(run["time"][-1])
+        low, high = channel.extrema(start, end)
+        t0, t1, v0, v1 = min(t0, start), max(t1, end), min(v0, low), max(v1, high)
+    if t0 > t1:
+        return None
+    return fitted(t0, t1, v0, v1, (0.1, 0.15))

@@ -1,0 +1,93 @@
+"""Curves between the first and the last key: soft lines where keys are few, exact columns where they are many."""
+
+from collections.abc import Sequence
+from math import ceil, floor
+from typing import Final
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QPainter
+
+from model.channel import Spans
+from model.sampling import Window, columns, crowded, dashes, line_through
+from widgets.painting import draw_chain, draw_lines, hair
+from widgets.stage import Stage
+from widgets.traces import Trace
+
+# How far a line reaches beside its mathematical place.
+REACH: Final = 4.0
+
+
+def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
+    """Each trace's curve from *x0* to *x1*; how it is drawn is decided by the whole window, never by this part."""
+    for trace in traces:
+        draw_curve(painter, stage, trace, trace.color, x0, x1, trace.pixels(stage.window.unit))
+
+
+def draw_curve(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0: float, x1: float, width: int) -> None:
+    """One curve in one colour."""
+    window, channel = stage.window, trace.channel
+    if len(channel) < 2:
+        return
+    if crowded(channel, window):
+        draw_columns(painter, window, trace, color, x0, x1, inside=True)
+        return
+    spans = channel.spans_between(window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH))
+    draw_spans(painter, window, spans, trace, color, width, trace.dash)
+
+
+def draw_spans(
+    painter: QPainter,
+    window: Window,
+    spans: Spans,
+    trace: Trace,
+    color: QColor,
+    width: int,
+    pattern: tuple[float, ...],
+) -> None:
+    """Spans as one line, dashed along time if there is a pattern (in logical pixels)."""
+    line = line_through(spans, window)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
+    pen = hair(color)
+    if not pattern:
+        painter.setPen(pen)
+        draw_chain(painter, line, width)
+        return
+    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+    painter.setPen(pen)
+    scaled = tuple(part * window.unit for part in pattern)
+    anchor = window.left - (window.t0 * window.px_per_second) % sum(scaled)
+    draw_lines(painter, dashes(line, scaled, anchor), width)
+
+
+def draw_columns(
+    painter: QPainter,
+    window: Window,
+    trace: Trace,
+    color: QColor,
+    x0: float,
+    x1: float,
+    *,
+    inside: bool,
+    every: int = 1,
+) -> None:
+    """The exact lowest to highest value of each pixel column; of the extrapolation every other group of *every*."""
+    channel = trace.channel
+    first, last = channel.first, channel.last
+    if first is None or last is None:
+        return
+    low, high = max(floor(x0 - window.left) - 1, 0), min(ceil(x1 - window.left) + 1, ceil(window.width))
+    if inside:
+        low = max(low, floor(min(max(window.x_from_time(first.time) - window.left, -1e9), 1e9)))
+        high = min(high, floor(min(max(window.x_from_time(last.time) - window.left, -1e9), 1e9)) + 1)
+    if high <= low:
+        return
+    top, bottom = columns(channel, window, low, high, inside=inside)
+    x = window.left + np.arange(low, high) + 0.5
+    lines = np.stack((x, np.floor(top) + 0.5, x, np.floor(bottom) + 0.5), axis=1)
+    if every > 1:
+        phase = floor(window.t0 * window.px_per_second) % (2 * every)
+        lines = lines[(np.arange(low, high) + phase) // every % 2 == 0]
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    painter.setPen(hair(color))
+    draw_lines(painter, lines, 2 if trace.active else 1)

@@ -1,0 +1,97 @@
+"""Handles: the ends of the tangents of selected keys, at one length on the screen, whatever the zoom."""
+
+from collections.abc import Sequence
+from math import hypot
+from typing import Final, NamedTuple
+
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QPainter, QPen
+
+from model.extrapolation import Extrapolation
+from model.keyframe import Keyframe, TangentRule
+from model.sampling import FAR, HUGE, Window
+from widgets.graph import Spot
+from widgets.layers.keys import SELECTED, selected_between
+from widgets.stage import Stage
+from widgets.traces import Trace
+
+LENGTH: Final = 48.0
+KNOB: Final = 3.5
+# With more selected keys in view than this, handles would hide the curves.
+MOST: Final = 64
+
+
+class Handles(NamedTuple):
+    """A key's place and the ends of its handles in pixels; a side without one is None."""
+
+    key: Spot
+    into: Spot | None
+    out: Spot | None
+    broken: bool
+
+
+def handles_of(key: Keyframe, window: Window) -> Handles:
+    """The handles of one key: only where a slope has a say in the curve."""
+    x = min(max(window.x_from_time(key.time), -FAR), FAR)
+    y = min(max(window.y_from_value(key.value), -FAR), FAR)
+    before, after = key.previous, key.next
+    channel = key.channel
+    has_in = before.rule_out != TangentRule.STEP if before else channel.pre is Extrapolation.LINEAR
+    has_out = key.rule_out != TangentRule.STEP and (after is not None or channel.post is Extrapolation.LINEAR)
+    into = out = None
+    if has_in:
+        dx, dy = _arm(key.slope_in, window)
+        into = (x - dx, y - dy)
+    if has_out:
+        dx, dy = _arm(key.slope_out, window)
+        out = (x + dx, y + dy)
+    return Handles((x, y), into, out, key.broken)
+
+
+def _arm(slope: float, window: Window) -> tuple[float, float]:
+    """From a key to the end of its handle out, in pixels."""
+    fall = min(max(-slope * (window.px_per_value / window.px_per_second), -HUGE), HUGE)
+    size = hypot(1.0, fall)
+    length = LENGTH * window.unit
+    return length / size, length * (fall / size)
+
+
+def shown_handles(stage: Stage) -> list[tuple[Trace, Handles]]:
+    """The handles of all selected keys in view; none if there are too many to tell apart."""
+    window = stage.window
+    margin = LENGTH * window.unit
+    t0, t1 = window.time_from_x(window.left - margin), window.time_from_x(window.right + margin)
+    found: list[tuple[Trace, Keyframe]] = []
+    for trace in (*stage.resting, *stage.live):
+        ids = stage.selection.ids(trace.channel)
+        if not len(ids) or trace.channel.locked:
+            continue
+        run = selected_between(trace.channel, ids, t0, t1)
+        if len(found) + len(run) > MOST:
+            return []
+        found.extend((trace, Keyframe(trace.channel, key_id)) for key_id in run["id"].tolist())
+    return [(trace, handles_of(key, window)) for trace, key in found]
+
+
+def draw_handles(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
+    """Thin lines with round ends: filled where both sides turn together, hollow where they turn apart."""
+    theme = stage.theme
+    reach = stage.px(LENGTH + 2 * KNOB)
+    shown = [each for each in shown_handles(stage) if x0 - reach <= each[1].key[0] <= x1 + reach]
+    if not shown:
+        return
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+    painter.setPen(QPen(theme.handle_line, stage.px(1.2)))
+    gap = stage.px(SELECTED)
+    for _, handles in shown:
+        key = QPointF(*handles.key)
+        for end in (handles.into, handles.out):
+            if end is not None:
+                arm = QPointF(*end) - key
+                painter.drawLine(key + arm * (gap / stage.px(LENGTH)), QPointF(*end))
+    painter.setPen(QPen(theme.handle, stage.px(1.4)))
+    for _, handles in shown:
+        painter.setBrush(theme.background if handles.broken else theme.handle)
+        for end in (handles.into, handles.out):
+            if end is not None:
+                painter.drawEllipse(QPointF(*end), stage.px(KNOB), stage.px(KNOB))

@@ -1,0 +1,113 @@
+"""Names at the lines' ends, none over another; and the words that help when there is nothing to see."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter
+
+from widgets.stage import Label, Stage
+from widgets.traces import Trace
+
+SIZE: Final = 0.92
+# With more curves than this only the active one is named: the rest would be a column of words.
+MOST: Final = 24
+PAD: Final = 5.0
+EDGE: Final = 6.0
+LONGEST: Final = 0.3
+
+
+def labels_of(stage: Stage) -> tuple[Label, ...]:
+    """Where the names go: at the right edge, level with the lines, pushed apart where they would overlap."""
+    window = stage.window
+    traces = [trace for trace in (*stage.resting, *stage.live) if len(trace.channel)]
+    named = traces if len(traces) <= MOST else [trace for trace in traces if trace.active]
+    if not named:
+        return ()
+    metrics = stage.metrics(SIZE)
+    high = metrics.height() + stage.px(1)
+    placed = []
+    for trace in named:
+        y = window.y_from_value(trace.channel.value(window.t1))
+        if window.top <= y <= window.bottom or trace.active:
+            arrow = "▲ " if y < window.top else "▼ " if y > window.bottom else ""
+            placed.append((min(max(y, window.top), window.bottom), trace, arrow))
+    placed.sort(key=lambda each: (each[0], each[1].place))
+    room = int(window.height / high)
+    if len(placed) > room:
+        placed = [each for each in placed if each[1].active] or placed[:room]
+    tops = _apart([y - high - stage.px(1) for y, _, _ in placed], high, window.top, window.bottom)
+    found = []
+    for (_, trace, arrow), top in zip(placed, tops, strict=True):
+        text = metrics.elidedText(
+            arrow + (trace.channel.name or "unnamed"), Qt.TextElideMode.ElideMiddle, window.width * LONGEST
+        )
+        width = metrics.horizontalAdvance(text) + stage.px(2 * PAD)
+        found.append(Label(trace, text, (window.right - stage.px(EDGE) - width, top, width, high)))
+    return tuple(found)
+
+
+def _apart(tops: list[float], high: float, low: float, most: float) -> list[float]:
+    """Ascending tops moved as little as it takes to stand below each other between *low* and *most*."""
+    tops = [round(top) for top in tops]
+    floor = low
+    for i, top in enumerate(tops):
+        tops[i] = floor = max(top, floor)
+        floor += high
+    ceiling = most
+    for i in range(len(tops) - 1, -1, -1):
+        tops[i] = min(tops[i], ceiling - high)
+        ceiling = tops[i]
+    return tops
+
+
+def draw_labels(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
+    """Each name in its channel's colour on a veil of the background."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+    painter.setFont(stage.font(SIZE))
+    descent = stage.metrics(SIZE).descent()
+    veil = QColor(stage.theme.background)
+    veil.setAlphaF(0.72)
+    for label in stage.labels:
+        left, top, width, high = label.box
+        if left <= x1:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(veil)
+            painter.drawRoundedRect(QRectF(left, top, width, high), stage.px(3), stage.px(3))
+            painter.setPen(label.trace.color)
+            painter.drawText(QPointF(left + stage.px(PAD), top + high - descent), label.text)
+
+
+def hint_of(stage: Stage) -> str:
+    """What to say in the middle of an empty picture, "" if there is something to see."""
+    document, window = stage.document, stage.window
+    if not document.clip.channels:
+        return "Nothing here yet\nOpen a file with Ctrl+O, or drop one here"
+    traces = (*stage.live, *stage.resting)
+    if not traces:
+        return "All channels are hidden\nAlt+H shows them again"
+    with_keys = [trace for trace in traces if len(trace.channel)]
+    if not with_keys:
+        return "No keys yet\nCtrl+click sets one, S keys all shown channels at the playhead"
+    for trace in with_keys:
+        low, high = trace.channel.extrema(window.t0, window.t1)
+        if low <= window.v1 and high >= window.v0:
+            return ""
+    return "Nothing in view\nPress A to see all"
+
+
+def draw_hint(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
+    """The words of `hint_of`, centred: the first line large, the next ones small."""
+    if not stage.hint:
+        return
+    title, _, rest = stage.hint.partition("\n")
+    plot = stage.plot()
+    middle = plot.center().y()
+    for text, size, color, y in (
+        (title, 1.5, stage.theme.text, middle - stage.px(14)),
+        (rest, 1.0, stage.theme.text_dim, middle + stage.px(14)),
+    ):
+        painter.setFont(stage.font(size))
+        painter.setPen(color)
+        box = QRectF(plot.left(), y - stage.px(20), plot.width(), stage.px(40))
+        painter.drawText(box, int(Qt.AlignmentFlag.AlignCenter), text)

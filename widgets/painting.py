@@ -1,0 +1,88 @@
+"""Arrays of numbers straight into QPainter: a thousand lines, boxes or marks in one call."""
+
+from typing import Any, Final, cast
+
+import numpy as np
+import shiboken6
+from numpy.typing import NDArray
+from PySide6.QtCore import QLineF, QRect
+from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QPolygonF
+
+from model.sampling import Line
+
+type Floats = NDArray[np.float64]
+
+# Where the line goes again to look thicker, in pixels: a wide antialiased pen is a hundred times as slow (QTBUG-27545).
+STROKES: Final = {
+    1: ((0.0, 0.0),),
+    2: ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)),
+    3: ((0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)),
+    4: ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (2.0, 0.0), (0.0, 2.0), (1.0, 1.0), (2.0, 1.0), (1.0, 2.0)),
+}
+
+
+def hair(color: QColor) -> QPen:
+    """A pen one pixel wide at every scale, the only one that is quick on long lines."""
+    pen = QPen(color, 1.0)
+    pen.setCosmetic(True)
+    return pen
+
+
+def polygon_from(line: Line) -> QPolygonF:
+    """The chain as Qt's polygon."""
+    count = len(line.x)
+    polygon = QPolygonF()
+    if count:
+        polygon.resize(count)
+        address = shiboken6.getCppPointer(polygon.data())[0]
+        memory: Any = cast("Any", shiboken6.VoidPtr)(address, count * 16, True)
+        points = np.frombuffer(memory, np.float64).reshape(count, 2)
+        points[:, 0] = line.x
+        points[:, 1] = line.y
+    return polygon
+
+
+def _first[T](rows: NDArray[Any], kind: type[T]) -> T:
+    """The first row of an array that lies in memory as Qt's own objects do."""
+    return cast("T", shiboken6.wrapInstance(rows.ctypes.data, kind))
+
+
+def draw_chain(painter: QPainter, line: Line, width: int) -> None:
+    """The chain with the painter's pen, *width* pixels thick."""
+    if len(line.x) < 2:
+        return
+    polygon = polygon_from(line)
+    for dx, dy in STROKES[width]:
+        painter.drawPolyline(polygon.translated(dx, dy) if dx or dy else polygon)
+
+
+def draw_lines(painter: QPainter, lines: Floats, width: int = 1) -> None:
+    """Lines (n, 4) of x0, y0, x1, y1."""
+    if not len(lines):
+        return
+    for dx, dy in STROKES[width]:
+        moved = np.ascontiguousarray(lines + np.array((dx, dy, dx, dy)))
+        painter.drawLines(_first(moved, QLineF), len(moved))
+
+
+def draw_boxes(painter: QPainter, x: NDArray[np.int32], y: NDArray[np.int32], wide: int, high: int) -> None:
+    """Boxes of whole pixels with their upper left corners at x, y, filled with the painter's brush."""
+    if not len(x):
+        return
+    boxes = np.empty((len(x), 4), np.int32)
+    boxes[:, 0], boxes[:, 1], boxes[:, 2], boxes[:, 3] = x, y, x + (wide - 1), y + (high - 1)
+    painter.drawRects(_first(boxes, QRect), len(boxes))
+
+
+def draw_marks(painter: QPainter, atlas: QPixmap, side: int, x: Floats, y: Floats, which: NDArray[np.intp]) -> None:
+    """Marks number *which* of an atlas of squares of *side* pixels in a row, centred at x, y, in this order."""
+    if not len(x):
+        return
+    marks = np.empty((len(x), 10))
+    marks[:, 0], marks[:, 1] = x, y
+    marks[:, 2] = which * side
+    marks[:, 3] = 0.0
+    marks[:, 4:6] = side
+    marks[:, 6:8] = 1.0
+    marks[:, 8], marks[:, 9] = 0.0, 1.0
+    painter.drawPixmapFragments(_first(marks, QPainter.PixmapFragment), len(marks), atlas)

@@ -1,0 +1,142 @@
+"""The two rulers: time above the plot, with the playhead's head and the clip's range; value to its left."""
+
+from typing import Final
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPolygonF
+
+from model.sampling import Window
+from widgets.painting import draw_lines, hair
+from widgets.stage import LABEL_SIZE, Stage
+from widgets.ticks import frame_ticks, plain
+
+# Logical pixels; multiples of four stay whole at the device ratios 1.25, 1.5 and 1.75.
+TIME_HEIGHT: Final = 40.0
+BAND_HEIGHT: Final = 5.0
+HEAD_HALF: Final = 6.0
+FRAME_SIZE: Final = 0.78
+# The playhead's head never writes more digits than this; it moves over the ruler's own numbers.
+HEAD_WIDTH: Final = 84.0
+
+
+def draw_value_ruler(painter: QPainter, stage: Stage) -> None:
+    """Numbers of values, right-aligned, each beside its line; a number that would be cut is left out."""
+    window, theme = stage.window, stage.theme
+    painter.fillRect(QRectF(0, window.top, window.left, window.height), theme.ruler)
+    painter.setFont(stage.font(LABEL_SIZE))
+    metrics = stage.metrics(LABEL_SIZE)
+    y = np.floor(window.y_from_value(stage.value_ticks.major)) + 0.5
+    painter.setPen(hair(theme.ruler_line))
+    draw_lines(
+        painter, np.stack((np.full(len(y), window.left - stage.px(4)), y, np.full(len(y), window.left), y), axis=1)
+    )
+    painter.setPen(theme.ruler_text)
+    half = metrics.capHeight() / 2
+    for label, middle in zip(stage.value_ticks.labels, y.tolist(), strict=True):
+        if window.top + half + 1 <= middle <= window.bottom - half - 1:
+            x = window.left - stage.px(7) - metrics.horizontalAdvance(label)
+            painter.drawText(QPointF(x, middle + half), label)
+    painter.setPen(hair(theme.ruler_line))
+    painter.drawLine(QPointF(window.left - 0.5, window.top), QPointF(window.left - 0.5, window.bottom))
+
+
+def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
+    """Seconds, below them the frame numbers where frames are far enough apart, and the band of the clip's range."""
+    window, theme = stage.window, stage.theme
+    height = window.top
+    painter.fillRect(QRectF(0, 0, window.right, height), theme.ruler)
+    painter.save()
+    painter.setClipRect(QRectF(window.left, 0, window.width, height), Qt.ClipOperation.IntersectClip)
+    _draw_band(painter, stage)
+    x = np.floor(window.x_from_time(stage.time_ticks.major)) + 0.5
+    minor = np.floor(window.x_from_time(stage.time_ticks.minor)) + 0.5
+    low = height - stage.px(BAND_HEIGHT)
+    painter.setPen(hair(theme.ruler_line))
+    draw_lines(
+        painter, np.stack((minor, np.full(len(minor), low - stage.px(3)), minor, np.full(len(minor), low)), axis=1)
+    )
+    draw_lines(painter, np.stack((x, np.full(len(x), low - stage.px(7)), x, np.full(len(x), low)), axis=1))
+    painter.setFont(stage.font(LABEL_SIZE))
+    painter.setPen(theme.ruler_text)
+    _draw_centred(painter, stage, x.tolist(), stage.time_ticks.labels, LABEL_SIZE, stage.px(13))
+    frames, each = frame_ticks(window.t0, window.t1, stage.document.clip.frame_rate, window.width, stage.px(44))
+    if len(frames) and (each or window.px_per_second / stage.document.clip.frame_rate >= stage.px(6)):
+        painter.setFont(stage.font(FRAME_SIZE))
+        painter.setPen(theme.text_dim)
+        at = window.x_from_time(frames / stage.document.clip.frame_rate)
+        _draw_centred(painter, stage, at.tolist(), [f"f{frame}" for frame in frames.tolist()], FRAME_SIZE, stage.px(25))
+    painter.restore()
+    painter.fillRect(QRectF(0, 0, window.left, height), theme.ruler)
+    painter.setPen(hair(theme.ruler_line))
+    painter.drawLine(QPointF(0, height - 0.5), QPointF(window.right, height - 0.5))
+    painter.setPen(theme.text_dim)
+    painter.setFont(stage.font(FRAME_SIZE))
+    painter.drawText(
+        QRectF(0, 0, window.left - stage.px(7), stage.px(18)),
+        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter,
+        "s",
+    )
+
+
+def _draw_centred(
+    painter: QPainter, stage: Stage, x: list[float], labels: object, size: float, baseline: float
+) -> None:
+    """Words centred at x, without those that would be cut at an end."""
+    window, metrics = stage.window, stage.metrics(size)
+    for label, middle in zip(labels, x, strict=True):  # type: ignore[call-overload]
+        half = metrics.horizontalAdvance(label) / 2
+        if middle - half >= window.left + 2 and middle + half <= window.right - 2:
+            painter.drawText(QPointF(middle - half, baseline), label)
+
+
+def _draw_band(painter: QPainter, stage: Stage) -> None:
+    window, clip, theme = stage.window, stage.document.clip, stage.theme
+    if not clip.end > clip.start:
+        return
+    x0, x1 = np.clip(window.x_from_time(np.array([clip.start, clip.end])), window.left - 9, window.right + 9).tolist()
+    top = window.top - stage.px(BAND_HEIGHT)
+    band = theme.range
+    painter.setOpacity(0.45)
+    painter.fillRect(QRectF(x0, top, x1 - x0, stage.px(BAND_HEIGHT)), band)
+    painter.setOpacity(1.0)
+    for x in (x0, x1):
+        painter.fillRect(
+            QRectF(round(x) - stage.px(1), top - stage.px(4), stage.px(2), stage.px(BAND_HEIGHT + 4)), band
+        )
+
+
+def head_rect(window: Window, time: float) -> QRectF:
+    """Where the playhead's head is painted at *time*; empty outside the window."""
+    x = window.x_from_time(time)
+    if not window.left - 1 <= x <= window.right + 1:
+        return QRectF()
+    half = HEAD_WIDTH / 2 * window.unit
+    return QRectF(x - half, 0, 2 * half, window.top)
+
+
+def draw_playhead_head(painter: QPainter, stage: Stage) -> None:
+    """The head of the playhead in the time ruler, with the time in it."""
+    window, theme = stage.window, stage.theme
+    time = stage.document.session.playhead
+    x = window.x_from_time(time)
+    if not window.left - 1 <= x <= window.right + 1:
+        return
+    metrics = stage.metrics(LABEL_SIZE)
+    step = stage.time_ticks.major[1] - stage.time_ticks.major[0] if len(stage.time_ticks.major) > 1 else 1.0
+    label = plain(time, min(max(3, 2 - int(np.floor(np.log10(step)))), 9))
+    width = metrics.horizontalAdvance(label) + stage.px(10)
+    half = width / 2
+    left = min(max(x - half, window.left), window.right - width) if window.width > width else x - half
+    top, low = stage.px(1), stage.px(18)
+    tip = stage.px(HEAD_HALF)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(theme.playhead)
+    painter.drawRoundedRect(QRectF(left, top, width, low - top), stage.px(3), stage.px(3))
+    painter.drawPolygon(QPolygonF([QPointF(x - tip, low), QPointF(x + tip, low), QPointF(x, low + tip)]))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    painter.fillRect(QRectF(np.floor(x), low, max(1.0, stage.px(1)), window.top - low), theme.playhead)
+    painter.setFont(stage.font(LABEL_SIZE))
+    painter.setPen(theme.playhead_text)
+    painter.drawText(QPointF(left + stage.px(5), stage.px(13.5)), label)

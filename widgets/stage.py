@@ -1,0 +1,121 @@
+"""Stage: what the layers read to draw one picture."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QFont, QFontMetricsF
+
+from model.channel import Channel
+from model.document import Document
+from model.keyframe import Run
+from model.sampling import Window
+from model.selection import Selection
+from widgets.graph import Frame
+from widgets.hit_test import Hit
+from widgets.theme import Theme
+from widgets.ticks import Ticks, ticks_of
+from widgets.traces import Trace
+
+
+@dataclass(slots=True)
+class Overlay:
+    """What is drawn over the curves and belongs to the pointer; in logical viewport pixels."""
+
+    hover: Hit | None = None
+    box: QRectF | None = None
+    frame: Frame | None = None
+    preview: tuple[Channel, float] | None = None
+
+
+# The size of the rulers' numbers beside the view's font.
+LABEL_SIZE: Final = 0.88
+
+
+class Label(NamedTuple):
+    """A channel's name at the end of its line; the box is in screen pixels."""
+
+    trace: Trace
+    text: str
+    box: tuple[float, float, float, float]
+
+
+@dataclass(slots=True)
+class Stage:
+    """One picture: the window in screen pixels, the traces at rest and those under the hand."""
+
+    document: Document
+    theme: Theme
+    window: Window
+    resting: tuple[Trace, ...]
+    live: tuple[Trace, ...]
+    overlay: Overlay
+    time_ticks: Ticks
+    value_ticks: Ticks
+    base_font: QFont
+    labels: tuple[Label, ...] = ()
+    hint: str = ""
+    _fonts: dict[float, QFont] = field(default_factory=dict)
+
+    @classmethod
+    def at(cls, stage: "Stage", window: Window) -> "Stage":
+        """The same stage seen through another window."""
+        if window == stage.window:
+            return stage
+        ticks = ticks_of(window, stage.metrics(LABEL_SIZE), degrees=stage.degrees)
+        return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1])
+
+    @property
+    def degrees(self) -> bool:
+        """Whether values are read in degrees: every shown channel is an angle."""
+        return in_degrees((*self.resting, *self.live))
+
+    @property
+    def selection(self) -> Selection:
+        """The selected keys."""
+        return self.document.session.selection
+
+    def px(self, logical: float) -> float:
+        """Screen pixels from logical ones."""
+        return logical * self.window.unit
+
+    def font(self, size: float) -> QFont:
+        """The view's font at *size* times its normal size, for painting in screen pixels."""
+        if size not in self._fonts:
+            font = QFont(self.base_font)
+            font.setPixelSize(max(round(pixel_size(font) * size * self.window.unit), 1))
+            self._fonts[size] = font
+        return self._fonts[size]
+
+    def metrics(self, size: float) -> QFontMetricsF:
+        """How wide words are in that font."""
+        return QFontMetricsF(self.font(size))
+
+    def plot(self) -> QRectF:
+        """The plot area in screen pixels."""
+        window = self.window
+        return QRectF(window.left, window.top, window.width, window.height)
+
+    def scaled(self, point: QPointF) -> QPointF:
+        """A logical point in screen pixels."""
+        return point * self.window.unit
+
+
+def in_degrees(traces: Sequence[Trace]) -> bool:
+    """Whether these are angles, all of them: they are stored in radians and read in degrees."""
+    return bool(traces) and all(trace.channel.unit == "angle" for trace in traces)
+
+
+def pixel_size(font: QFont) -> float:
+    """The font's height in logical pixels, however it was set."""
+    return font.pixelSize() if font.pixelSize() > 0 else QFontMetricsF(font).ascent() * 1.08
+
+
+def chosen(run: Run, ids: np.ndarray[Any, np.dtype[np.int64]]) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """Which keys of the run are among the sorted *ids*."""
+    if not len(ids):
+        return np.zeros(len(run), np.bool_)
+    at = np.minimum(np.searchsorted(ids, run["id"]), len(ids) - 1)
+    return np.asarray(ids[at] == run["id"])

@@ -1,0 +1,74 @@
+"""Trace: how one channel is drawn; who is drawn at rest and who under the hand."""
+
+from collections.abc import Set
+from typing import Final, NamedTuple
+
+from PySide6.QtGui import QColor
+
+from model.channel import Channel
+from model.document import Document
+from widgets.colors import mix
+from widgets.theme import Theme
+
+# With more curves than this, thin hard lines: soft ones cost twice the ink, and nobody sees it in a thicket.
+MOST_SOFT: Final = 48
+LOCKED_DASH: Final = (3.0, 3.0)
+DIMMED: Final = 0.4
+LOCKED_DIMMED: Final = 0.55
+FAINT: Final = 0.45
+
+
+class Trace(NamedTuple):
+    """How one channel is drawn; sizes in logical pixels."""
+
+    channel: Channel
+    place: int
+    color: QColor
+    faint: QColor
+    dash: tuple[float, ...]
+    width: float
+    soft: bool
+    active: bool
+
+    def pixels(self, unit: float) -> int:
+        """The line's thickness in whole pixels of the screen, 1 to 4."""
+        return min(max(round(self.width * unit), 1), 4)
+
+
+def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
+    """The shown channels in the order of the clip, the active one last."""
+    session = document.session
+    shown = [(index, channel) for index, channel in enumerate(document.clip.channels) if session.shown(channel)]
+    soft = len(shown) <= MOST_SOFT
+    active = session.active
+    some_active = any(channel is active for _, channel in shown)
+    traces = []
+    for index, channel in shown:
+        own = theme.channel_color(channel, index)
+        part = LOCKED_DIMMED if channel.locked else DIMMED if some_active and channel is not active else 0.0
+        color = mix(own, theme.background, part)
+        traces.append(
+            Trace(
+                channel,
+                index,
+                color,
+                mix(color, theme.background, FAINT),
+                LOCKED_DASH if channel.locked else theme.channel_dash(channel, index),
+                2.0 if channel is active else 1.0,
+                soft or channel is active,
+                channel is active,
+            )
+        )
+    return tuple(sorted(traces, key=lambda trace: trace.active))
+
+
+def live_channels(document: Document, touched: Set[Channel], most: int = 24) -> set[Channel]:
+    """The channels drawn anew at every step: the active one, those of the gesture, those about to be dragged."""
+    session = document.session
+    live = set(touched)
+    if session.active is not None:
+        live.add(session.active)
+    chosen = session.selection.channels
+    if len(chosen) <= most:
+        live.update(chosen)
+    return live
