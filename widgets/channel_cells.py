@@ -1,0 +1,122 @@
+"""ChannelCells: how one cell of the channel tree is painted."""
+
+from typing import Final
+
+from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QPoint, QRect, QSize, Qt
+from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
+
+from model.channel import Channel
+from model.document import Document
+from widgets.channel_rows import TOGGLES, ChannelRows, Column
+from widgets.colors import mix
+from widgets.guard import guarded
+from widgets.theme import Theme
+
+type Index = QModelIndex | QPersistentModelIndex
+
+ROW_HEIGHT: Final = 24
+SWATCH: Final = 22
+ICON: Final = 16
+GAP: Final = 6
+# How far an icon that is off goes towards the background: little in the row under the mouse, else nearly all the way.
+FAINT: Final = 0.84
+FAINT_UNDER_MOUSE: Final = 0.45
+
+
+class ChannelCells(QStyledItemDelegate):
+    """Swatch and name, live value, and icons; nothing is a widget, so thousands of rows cost as much as those seen."""
+
+    def __init__(self, document: Document, theme: Theme, rows: ChannelRows, parent: QObject) -> None:
+        super().__init__(parent)
+        self._document = document
+        self._theme = theme
+        self._rows = rows
+        self._pens: dict[Channel, QPen] = {}
+        self.dirty = QRect()  # what the paint event under way is about; cells outside are left alone
+
+    def forget_colors(self) -> None:
+        """Work out all colours again: the theme or a channel's colour has changed."""
+        self._pens.clear()
+
+    @guarded(QSize(40, ROW_HEIGHT))
+    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
+        return QSize(40, max(ROW_HEIGHT, option.fontMetrics.height() + 6))
+
+    @guarded()
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        if not option.rect.intersects(self.dirty):
+            return
+        self._paint_background(painter, option)
+        painter.save()
+        column = Column(index.column())
+        if column == Column.NAME:
+            self._paint_name(painter, option, index)
+        elif column == Column.VALUE:
+            self._paint_value(painter, option, index)
+        else:
+            self._paint_toggle(painter, option, index, column)
+        painter.restore()
+
+    def _paint_background(self, painter: QPainter, option: QStyleOptionViewItem) -> None:
+        widget = option.widget
+        widget.style().drawPrimitive(QStyle.PrimitiveElement.PE_PanelItemViewItem, option, painter, widget)
+        if option.state & QStyle.StateFlag.State_HasFocus and option.state & QStyle.StateFlag.State_KeyboardFocusChange:
+            painter.setPen(self._theme.pen(self._theme.accent))
+            painter.drawRect(option.rect.adjusted(0, 0, -1, -1))
+
+    def _paint_name(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        channel = self._rows.channel_of(index)
+        rect = option.rect.adjusted(2, 0, -2, 0)
+        seen = self._rows.seen(self._rows.channels_of(index))
+        if channel is not None:
+            middle = rect.center().y()
+            pen = self._pen(channel)
+            if not seen:
+                pen = QPen(pen)
+                pen.setColor(mix(pen.color(), option.palette.color(QPalette.ColorRole.Base), 0.65))
+            painter.setPen(pen)
+            painter.drawLine(QPoint(rect.left() + 2, middle), QPoint(rect.left() + SWATCH - 2, middle))
+            rect.setLeft(rect.left() + SWATCH + GAP)
+        font = option.font
+        font.setBold(channel is not None and channel is self._document.session.active)
+        painter.setFont(font)
+        painter.setPen(self._theme.text if seen else self._theme.text_dim)
+        text = channel.leaf if channel is not None else self._rows.groups[index.row()].name
+        # The end of a long name tells more than its beginning.
+        text = QFontMetrics(font).elidedText(text, Qt.TextElideMode.ElideLeft, rect.width())
+        painter.drawText(rect, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
+
+    def _paint_value(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        channel = self._rows.channel_of(index)
+        if channel is None:
+            return
+        painter.setFont(self._theme.number_font(option.font))
+        painter.setPen(self._theme.text_dim)
+        flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
+        painter.drawText(option.rect.adjusted(0, 0, -GAP, 0), flags, self._rows.value_text(channel))
+
+    def _paint_toggle(self, painter: QPainter, option: QStyleOptionViewItem, index: Index, column: Column) -> None:
+        toggle = TOGGLES[column]
+        part = self._rows.part_on(self._rows.channels_of(index), column)
+        color = self._theme.text_dim
+        if part and column != Column.SHOW:
+            color = self._theme.accent if column == Column.SOLO else self._theme.warning
+        if part < 1:
+            under_mouse = bool(option.state & QStyle.StateFlag.State_MouseOver)
+            faint = FAINT_UNDER_MOUSE if under_mouse or part or column == Column.SHOW else FAINT
+            color = mix(color, option.palette.color(QPalette.ColorRole.Base), faint)
+        ratio = painter.device().devicePixelRatio()
+        pixmap = self._theme.pixmap(toggle.icon_on if part else toggle.icon_off, ICON, ratio, color)
+        painter.drawPixmap(option.rect.center() - QPoint(ICON // 2 - 1, ICON // 2 - 1), pixmap)
+
+    def _pen(self, channel: Channel) -> QPen:
+        if channel not in self._pens:
+            rank = self._rows.rank(channel)
+            pen = QPen(self._theme.channel_color(channel, rank), 2.5)
+            pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+            dash = self._theme.channel_dash(channel, rank)
+            if dash:
+                pen.setDashPattern([max(length * 0.4, 0.8) for length in dash])
+            self._pens[channel] = pen
+        return self._pens[channel]
