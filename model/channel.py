@@ -1,20 +1,29 @@
 """Channel: a doubly linked list of keys whose only change is the splice of a run of neighbours."""
 
-from collections.abc import Iterable, Iterator
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Sequence
+from math import inf, nextafter
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from model import envelope, evaluation, splicing
-from model.evaluation import Span
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation
 from model.hermite import LARGEST, Floats
-from model.keyframe import KEY_DTYPE, Keyframe, Run
-from model.rows import BROKEN, RULE_IN, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, C, Keys, Rows
+from model.keyframe import Keyframe, Run
+from model.lookup import SLOTS_A_TIME, TABLE_TIMES, Table
+from model.rows import MARK_FIELDS, NUMBER_FIELDS, TIME, VALUE, A, B, C, Rows
 
-_NUMBERS = {"time": TIME, "value": VALUE, "slope_in": SLOPE_IN, "slope_out": SLOPE_OUT}
-_MARKS = {"rule_in": RULE_IN, "rule_out": RULE_OUT, "broken": BROKEN}
+_NUMBERS = dict(NUMBER_FIELDS)
+_MARKS = dict(MARK_FIELDS)
+
+# One span in Python numbers: (time0, time1, d_time, a, b, c, d); the last key holds its own time only.
+type Span = tuple[float, float, float, float, float, float, float]
+NOWHERE: Span = (inf, -inf, 1.0, 0.0, 0.0, 0.0, 0.0)
+# Channels of so many rows keep their times as lists, and those of so many keys their spans, once values are asked for.
+LISTED_ROWS = 512
+KEPT_SPANS = 4096
 
 
 class Reach(NamedTuple):
@@ -57,11 +66,14 @@ class Channel:
         self.pre, self.post = Extrapolation(pre), Extrapolation(post)
         self.revision = 0
         self._next_id = 1
-        self._rows = Rows(Keys.empty(0))
+        self._rows = Rows()
         self._ends: Ends | None = None
-        self._hit: Span | None = None
+        self._table: Table | None = None
+        self._hit = NOWHERE
+        self._kept_spans: dict[int, Span] = {}
+        self._row_times: dict[int, Sequence[float]] = {}
         if run is not None and len(run):
-            self.splice(run[:0], run)
+            self._splice(run[:0], run)
             self.revision = 0
 
     def __repr__(self) -> str:
@@ -88,7 +100,9 @@ class Channel:
 
     def __contains__(self, key_id: object) -> bool:
         rows = self._rows
-        return isinstance(key_id, int | np.integer) and 0 < key_id < len(rows.row_of) and bool(rows.row_of[key_id] >= 0)
+        if not isinstance(key_id, int | np.integer) or not 0 < key_id < len(rows.row_of):
+            return False
+        return bool(rows.row_of[key_id] >= 0)
 
     def _key(self, rank: int) -> Keyframe | None:
         if not 0 <= rank < len(self):
@@ -136,13 +150,7 @@ class Channel:
     # --- runs
 
     def _run(self, rank0: int, rank1: int) -> Run:
-        keys = self._rows.gathered(rank0, rank1)
-        run = np.empty(keys.count, KEY_DTYPE)
-        for name, column in _NUMBERS.items():
-            run[name] = keys.numbers[column]
-        for name, column in _MARKS.items():
-            run[name] = keys.marks[column]
-        run["id"] = keys.ids
+        run = self._rows.run(rank0, rank1)
         run.flags.writeable = False
         return run
 
@@ -150,22 +158,26 @@ class Channel:
         """All keys."""
         return self._run(0, len(self))
 
-    def _ranks(self, ids: Iterable[int]) -> list[int]:
-        return sorted({self._rows.rank_of(key_id) for key_id in (ids.tolist() if isinstance(ids, np.ndarray) else ids)})
+    def _ranks(self, ids: Iterable[int]) -> NDArray[np.int64]:
+        array = ids if isinstance(ids, np.ndarray) else np.array(list(ids), np.int64)
+        return self._rows.ranks_of(array.astype(np.int64, copy=False).reshape(-1))
 
     def run_of(self, ids: Iterable[int]) -> Run:
         """The fewest neighbouring keys that hold all *ids*; KeyGoneError if one is gone."""
         ranks = self._ranks(ids)
-        return self._run(ranks[0], ranks[-1] + 1) if ranks else self._run(0, 0)
+        return self._run(int(ranks[0]), int(ranks[-1]) + 1) if len(ranks) else self._run(0, 0)
 
     def keys_of(self, ids: Iterable[int]) -> Run:
         """Exactly the keys *ids*, in time order; KeyGoneError if one is gone."""
         ranks = self._ranks(ids)
-        if not ranks:
+        if not len(ranks):
             return self._run(0, 0)
-        run = self._run(ranks[0], ranks[-1] + 1)[np.array(ranks) - ranks[0]]
-        run.flags.writeable = False
-        return run
+        run = self._run(int(ranks[0]), int(ranks[-1]) + 1)
+        if len(ranks) == len(run):
+            return run
+        chosen: Run = run[ranks - ranks[0]]
+        chosen.flags.writeable = False
+        return chosen
 
     def keys_between(self, t0: float, t1: float, *, around: int = 0) -> Run:
         """The keys with t0 <= time <= t1, and *around* neighbours on each side."""
@@ -202,13 +214,33 @@ class Channel:
         *before* must be what is there, by ids; *after* must be finite, in order and between the neighbours, and its
         rules known; else ValueError, and nothing has changed. Keys with id 0 get new ids.
         """
-        rank = splicing.rank_of_run(self._rows, before, after)
-        new, self_next = splicing.checked(self._rows, rank, before, after, self._next_id)
-        t0, t1, stored = splicing.spliced(self._rows, rank, len(before), new, self.pre, self.post)
-        self._next_id = self_next
+        if not len(before) and not len(after):
+            return Reach(inf, -inf, after)
+        t0, t1, rank0, rank1 = self._splice(before, after)
+        return Reach(t0, t1, self._run(rank0, rank1))
+
+    def _splice(self, before: Run, after: Run) -> tuple[float, float, int, int]:
+        """Do what `splice` says: (t0, t1) of what changed, (rank0, rank1) of the new keys."""
+        rows = self._rows
+        rank0 = splicing.rank_of_run(rows, before, after)
+        rank1 = rank0 + len(before)
+        splicing.check_run(rows, rank0, rank1, after)
+        ids, next_id = splicing.ids_for(rows, before, after, self._next_id)
+        if ids is not None:
+            after = after.copy()
+            after["id"] = ids
+        old = splicing.outer(rows, rank0, rank1)
+        old_size = rows.size
+        old_times = (float(before["time"][0]), float(before["time"][-1])) if len(before) else (inf, -inf)
+        moved0, moved1 = rows.replace(rank0, rank1, after)
+        rank1 = rank0 + len(after)
+        splicing.rebuild(rows, min(moved0, rank0 - 2), max(moved1, rank1 + 1))
+        self._next_id = next_id
         self._changed()
-        run = self._run(rank, rank + stored)
-        return Reach(t0, t1, run)
+        if not old_size or not rows.size:
+            return -inf, inf, rank0, rank1
+        t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
+        return t0, t1, rank0, rank1
 
     def set_extrapolation(self, pre: Extrapolation, post: Extrapolation) -> None:
         """Choose how the curve goes on before the first and after the last key."""
@@ -217,7 +249,10 @@ class Channel:
 
     def _changed(self) -> None:
         self.revision += 1
-        self._ends = self._hit = None
+        self._ends = self._table = None
+        self._hit = NOWHERE
+        self._kept_spans.clear()
+        self._row_times.clear()
 
     def copy(self) -> "Channel":
         """A channel with the same keys, ids and settings, sharing nothing with this one."""
@@ -246,29 +281,72 @@ class Channel:
         flat = np.ascontiguousarray(array).reshape(-1)
         if len(self) == 0:
             return np.where(np.isnan(array), np.nan, 0.0)
-        return evaluation.evaluated(self._rows, self._the_ends(), flat, self.pre, self.post).reshape(array.shape)
+        table = self._table_for(len(flat))
+        return evaluation.evaluated(self._rows, self._the_ends(), flat, self.pre, self.post, table).reshape(array.shape)
+
+    def _table_for(self, times: int) -> Table | None:
+        """A table that finds that many times, if it is worth its making."""
+        if times < TABLE_TIMES or SLOTS_A_TIME * times < len(self._rows.ids):
+            return None
+        if self._table is None:
+            self._table = Table(self._rows)
+        return self._table if self._table.usable else None
 
     def value(self, time: float) -> float:
         """The value at one time, bit for bit that of `evaluate`."""
         hit = self._hit
-        if hit is None or not hit.time0 <= time < hit.time1:
-            if len(self) == 0:
-                return 0.0 if time == time else time
-            ends = self._the_ends()
-            if time < ends.time0 or time > ends.time1:
-                mode = EXTRAPOLATIONS[self.pre if time < ends.time0 else self.post]
-                inner, shift = mode.fold_one(time, ends)
-                value = self.value(inner)
-                return min(max(value + shift, -LARGEST), LARGEST) if shift else value
-            if time != time:
-                return time
-            hit = self._hit = evaluation.span_at(self._rows, time)
+        if not hit[0] <= time < hit[1]:
+            found = self._seek(float(time))
+            if found is None:
+                return self._value_outside(float(time))
+            hit = self._hit = found
         time0, _, d_time, a, b, c, d = hit
         u = (time - time0) / d_time
         value = d + u * (c + u * (b + u * a))
-        if value - value != 0.0:
-            return float(evaluation.careful(self._rows, np.array([time]))[0])
-        return value
+        if value and value - value == 0.0:
+            return value
+        return self._careful_value(time, value, d)
+
+    def _careful_value(self, time: float, value: float, d: float) -> float:
+        """*value* at *time*, which is 0 or no number, as `evaluate` gives it."""
+        if value == 0.0:
+            return d if time == self._hit[0] else value
+        slot = self._rows.slot(self._rows.rank_at(time) - 1)
+        return float(evaluation.careful(self._rows, np.array([slot]), np.array([time]))[0])
+
+    def _value_outside(self, time: float) -> float:
+        """The value before the first or after the last key, without keys, or at NaN."""
+        if time != time or not len(self):
+            return time if time != time else 0.0
+        ends = self._the_ends()
+        inner, shift = EXTRAPOLATIONS[self.pre if time < ends.time0 else self.post].fold_one(time, ends)
+        value = self.value(inner)
+        return min(max(value + shift, -LARGEST), LARGEST) if shift else value
+
+    def _seek(self, time: float) -> Span | None:
+        """The span that *time* lies in; None outside the keys."""
+        rows = self._rows
+        row = bisect_right(rows.starts, time) - 1 if rows.rows > 1 else 0
+        times = self._row_times.get(row)
+        if times is None:
+            times = rows.number_grid[TIME, row, : rows.held(row)].tolist() if row >= 0 else []
+            if rows.rows <= LISTED_ROWS:
+                self._row_times[row] = times
+        place = bisect_right(times, time) - 1
+        if place < 0:
+            return None
+        slot = row * rows.width + place
+        span = self._kept_spans.get(slot)
+        if span is None:
+            time0, value, _, _, a, b, c, d_time = rows.numbers[:, slot].tolist()
+            if place + 1 < len(times):
+                time1 = times[place + 1]
+            else:
+                time1 = rows.starts[row + 1] if row + 1 < rows.rows else nextafter(time0, inf)
+            span = (time0, time1, d_time, a, b, c, value)
+            if rows.size <= KEPT_SPANS:
+                self._kept_spans[slot] = span
+        return span if time < span[1] else None
 
     def slopes(self, times: ArrayLike, side: str = "out") -> Floats:
         """The slopes at *times* in value per second; at a corner the one to the right ("out") or left ("in")."""
@@ -294,7 +372,7 @@ class Channel:
         return tuple(float(column[0]) for column in spans)  # type: ignore[return-value]
 
     def _spans(self, rank0: int, rank1: int) -> Spans:
-        keys = self._rows.gathered(rank0, rank1 + 1).numbers
+        keys = self._rows.columns(rank0, rank1 + 1)
         a, b, c = (np.clip(np.nan_to_num(keys[i, :-1]), -LARGEST, LARGEST) for i in (A, B, C))
         return Spans(keys[TIME, :-1], keys[TIME, 1:], a, b, c, keys[VALUE, :-1])
 

@@ -10,9 +10,9 @@ from model.rows import D_TIME, TIME, VALUE, A, B, C, Rows
 
 def envelope(rows: Rows, ends: Ends, edges: Floats, pre: Extrapolation, post: Extrapolation) -> tuple[Floats, Floats]:
     """(lowest, highest) of the curve in each [edges[j], edges[j + 1]]."""
-    values = evaluation.evaluated(rows, ends, edges, pre, post)
+    values = evaluation.evaluated(rows, ends, edges, pre, post, None)
     low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
-    n = rows.numbers[:, rows.slots(0, rows.size)]
+    n = rows.numbers[:, rows.slots(np.arange(rows.size))]
     u0, u1 = hermite.extremum_places(n[A], n[B], n[C])
     times, heights = [n[TIME]], [n[VALUE]]
     for u in (u0, u1):

@@ -1,26 +1,16 @@
 """Evaluation of a channel's rows: many times in numpy, one time in Python numbers, bit for bit the same."""
 
-from math import inf, nextafter
-from typing import NamedTuple
-
 import numpy as np
 
 from model import hermite
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation, Folded
 from model.hermite import LARGEST, Floats
-from model.rows import D_TIME, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, C, Rows
+from model.keyframe import TangentRule
+from model.lookup import AT_A_TIME, Table, merged_slots
+from model.rows import D_TIME, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, C, Rows, Slots
 
-
-class Span(NamedTuple):
-    """One span in Python numbers; the last key holds its own time only, with a = b = c = 0."""
-
-    time0: float
-    time1: float
-    d_time: float
-    a: float
-    b: float
-    c: float
-    d: float
+# Rising times are merged with the keys if there are so many for each slot; a table serves other large sets.
+MERGED_TIMES = 16
 
 
 def ends_of(rows: Rows) -> Ends:
@@ -51,42 +41,86 @@ def folded(times: Floats, ends: Ends, pre: Extrapolation, post: Extrapolation) -
     return inner, shifts
 
 
-def evaluated(rows: Rows, ends: Ends, times: Floats, pre: Extrapolation, post: Extrapolation) -> Floats:
+def evaluated(
+    rows: Rows, ends: Ends, times: Floats, pre: Extrapolation, post: Extrapolation, table: Table | None
+) -> Floats:
     """The values at *times* (n,) of a channel that has keys."""
     if len(times) == 0:
         return np.empty(0)
     if times.min() >= ends.time0 and times.max() <= ends.time1:
-        return inside(rows, times)
+        return inside(rows, times, table)
     inner, shifts = folded(times, ends, pre, post)
-    values = inside(rows, inner)
+    values = inside(rows, inner, table)
     if shifts is not None:
         with np.errstate(all="ignore"):
             values = np.where(shifts != 0.0, hermite.finite(values + shifts), values)
     return values
 
 
-def inside(rows: Rows, times: Floats) -> Floats:
+def inside(rows: Rows, times: Floats, table: Table | None) -> Floats:
     """The values at *times* (n,) from the first to the last key; NaN gives NaN."""
-    numbers = rows.numbers
-    slots = rows.times.searchsorted(times, "right") - 1
-    np.maximum(slots, 0, out=slots)
+    found = np.empty(len(times))
+    merging = len(times) > MERGED_TIMES * len(rows.ids) and bool((times[1:] >= times[:-1]).all())
+    slots: Slots
     with np.errstate(all="ignore"):
-        u = (times - numbers[TIME].take(slots)) / numbers[D_TIME].take(slots)
-        values = numbers[VALUE].take(slots) + u * (
-            numbers[C].take(slots) + u * (numbers[B].take(slots) + u * numbers[A].take(slots))
-        )
-    wild = np.flatnonzero(~np.isfinite(values))
-    if len(wild):
-        values[wild] = careful(rows, times[wild])
-    return values
+        for at in range(0, len(times), AT_A_TIME):
+            part, values = times[at : at + AT_A_TIME], found[at : at + AT_A_TIME]
+            if merging:
+                first, counts = merged_slots(rows.times, part)
+                if len(counts) == 1:
+                    _one_span(rows, first, part, values)
+                    continue
+                slots = np.repeat(np.arange(first, first + len(counts)), counts)
+            elif table is not None:
+                slots = table.slots(rows.times, part)
+            else:
+                slots = np.maximum(rows.times.searchsorted(part, "right") - 1, 0)
+            _many_spans(rows, slots, part, values)
+    return found
 
 
-def careful(rows: Rows, times: Floats) -> Floats:
-    """The values at *times* where the coefficients are too large for doubles."""
-    slots = rows.real(rows.times.searchsorted(times, "right") - 1)
+def _many_spans(rows: Rows, slots: Slots, times: Floats, values: Floats) -> None:
+    """Fill *values*, each time in the span that the key of its slot starts."""
     n = rows.numbers
-    following = np.array([rows.slot(min(int(rank) + 1, rows.size - 1)) for rank in rows.ranks(slots)])
-    values = hermite.careful_value(
+    u = np.subtract(times, n[TIME].take(slots, mode="clip"))
+    u /= n[D_TIME].take(slots, mode="clip")
+    n[A].take(slots, out=values, mode="clip")
+    for column in (B, C, VALUE):
+        values *= u
+        values += n[column].take(slots, mode="clip")
+    _mend(rows, slots, times, values)
+
+
+def _one_span(rows: Rows, slot: int, times: Floats, values: Floats) -> None:
+    """The same when all times are in one span."""
+    n = rows.numbers
+    u = np.subtract(times, n[TIME, slot])
+    u /= n[D_TIME, slot]
+    np.multiply(u, n[A, slot], out=values)
+    values += n[B, slot]
+    for column in (C, VALUE):
+        values *= u
+        values += n[column, slot]
+    _mend(rows, slot, times, values)
+
+
+def _mend(rows: Rows, slots: Slots | int, times: Floats, values: Floats) -> None:
+    """Work out anew what overflowed, and give keys of value -0.0 their sign back."""
+    fine = np.isfinite(values)
+    if not fine.all():
+        wild = np.flatnonzero(~fine)
+        values[wild] = careful(rows, np.broadcast_to(slots, times.shape)[wild], times[wild])
+    if rows.minus_zero and not values.all():
+        zero = (values == 0.0) & (times == rows.times[slots])
+        values[zero] = np.broadcast_to(rows.numbers[VALUE, slots], times.shape)[zero]
+
+
+def careful(rows: Rows, slots: Slots, times: Floats) -> Floats:
+    """The values at *times*, in the spans that the keys of *slots* start, whose numbers are too large for doubles."""
+    n = rows.numbers
+    ranks = rows.ranks(slots)
+    following = rows.slots(np.minimum(ranks + 1, rows.size - 1))
+    found = hermite.careful_value(
         times,
         n[TIME][slots],
         n[TIME][following],
@@ -95,17 +129,8 @@ def careful(rows: Rows, times: Floats) -> Floats:
         n[SLOPE_OUT][slots],
         n[SLOPE_IN][following],
     )
-    on_key = (times == n[TIME][slots]) | (following == slots)
-    held = (n[A][slots] == 0.0) & (n[B][slots] == 0.0) & (n[C][slots] == 0.0)
-    return np.where(np.isnan(times), np.nan, np.where(on_key | held, n[VALUE][slots], values))
-
-
-def span_at(rows: Rows, time: float) -> Span:
-    """The span that *time*, at or after the first key, lies in."""
-    rank = rows.rank_at(time) - 1
-    time0, value, _, _, a, b, c, d_time = rows.numbers[:, rows.slot(rank)].tolist()
-    time1 = float(rows.times[rows.slot(rank + 1)]) if rank + 1 < rows.size else nextafter(time0, inf)
-    return Span(time0, time1, d_time, a, b, c, value)
+    held = (rows.marks[RULE_OUT][slots] == TangentRule.STEP) | (ranks == rows.size - 1)
+    return np.where(np.isnan(times), np.nan, np.where(held | (times == n[TIME][slots]), n[VALUE][slots], found))
 
 
 def slopes(rows: Rows, ends: Ends, times: Floats, pre: Extrapolation, post: Extrapolation, *, after: bool) -> Floats:

@@ -5,128 +5,80 @@ at the end of a row repeat its last key, so that every flat column is sorted whe
 Horner and reductions run on it without masks. Row r is linked to rows r - 1 and r + 1 by lying between them;
 a key is linked to its neighbours by its place in the row. A key is inserted, removed or replaced by moving
 numbers inside one row; a full row shares its keys out to rows near it. Nothing outside the channel knows rows.
+
+Keys are addressed by rank (0 = first) or by slot (place in the flat columns). Rows hold numbers and know nothing
+of rules: whoever stores keys here works out slopes and coefficients afterwards (model/splicing.py).
 """
 
 from bisect import bisect_right
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from model.hermite import Floats
-from model.keyframe import KeyGoneError
+from model.keyframe import KEY_DTYPE, KeyGoneError, Run
+
+type Slots = NDArray[np.int64]
 
 TIME, VALUE, SLOPE_IN, SLOPE_OUT, A, B, C, D_TIME = range(8)
 RULE_IN, RULE_OUT, BROKEN = range(3)
+NUMBER_FIELDS = (("time", TIME), ("value", VALUE), ("slope_in", SLOPE_IN), ("slope_out", SLOPE_OUT))
+MARK_FIELDS = (("rule_in", RULE_IN), ("rule_out", RULE_OUT), ("broken", BROKEN))
 
 WIDEST = 512
 FILLED = 384
-# The share of its slots that a group of rows may fill after sharing out; a whole channel beyond it gets new rows.
+# The share of its slots that a group of rows may fill when it is shared out; a fuller channel gets new rows.
 CROWDED = 0.85
+# Rows handled at a time, so that their numbers stay in the processor's cache from one column to the next.
+AT_A_TIME = 16
 
 
-class Keys(NamedTuple):
-    """Neighbouring keys as columns: numbers (8, n), marks (3, n), ids (n,)."""
+class Block(NamedTuple):
+    """Keys in the same places of neighbouring rows that hold equally many."""
 
-    numbers: Floats
-    marks: NDArray[np.uint8]
-    ids: NDArray[np.int32]
-
-    def __getitem__(self, part: slice) -> "Keys":  # type: ignore[override]
-        return Keys(self.numbers[:, part], self.marks[:, part], self.ids[part])
-
-    @property
-    def count(self) -> int:
-        """How many keys."""
-        return len(self.ids)
-
-    @classmethod
-    def empty(cls, n: int) -> "Keys":
-        """Room for n keys."""
-        return cls(np.empty((8, n)), np.empty((3, n), np.uint8), np.empty(n, np.int32))
-
-    @classmethod
-    def joined(cls, *parts: "Keys") -> "Keys":
-        """One after the other."""
-        return cls(
-            np.concatenate([part.numbers for part in parts], axis=1),
-            np.concatenate([part.marks for part in parts], axis=1),
-            np.concatenate([part.ids for part in parts]),
-        )
+    rank: int  # of its first key
+    row: int
+    rows: int
+    place: int  # of its first key in the row; 0 if there is more than one row
+    width: int  # keys of each row that belong to the block
+    held: int  # keys that each of the rows holds
 
 
 class Rows:
-    """The rows of one channel; keys are addressed by rank (0 = first) or by slot in the flat columns."""
+    """The rows of one channel; `size` keys."""
 
-    def __init__(self, keys: Keys) -> None:
+    def __init__(self) -> None:
         self.row_of = np.full(16, -1, np.int32)  # by id; -1: no such key
-        self._lay_out(keys)
+        self.minus_zero = False  # whether some key may have had the value -0.0
+        self._make(0)
 
-    def _lay_out(self, keys: Keys) -> None:
-        """Make new rows for all *keys*."""
-        n = keys.count
-        self.size = n
+    def _make(self, n: int) -> None:
+        """Make new rows for n keys and forget the old ones."""
         if n <= FILLED:
-            self.width = min(WIDEST, max(8, 1 << (n + n // 3).bit_length()))
-            rows = 1
+            width, rows = min(WIDEST, max(8, 1 << (n + n // 3).bit_length())), 1
         else:
-            self.width = WIDEST
-            rows = -(-n // FILLED)
-        slots = rows * self.width
-        self.numbers = np.empty((8, slots))
-        self.marks = np.empty((3, slots), np.uint8)
-        self.ids = np.empty(slots, np.int32)
+            width, rows = WIDEST, -(-n // FILLED)
+        self.width, self.rows, self.size = width, rows, n
+        self.number_grid = np.zeros((8, rows, width)) if n == 0 else np.empty((8, rows, width))
+        self.mark_grid = np.zeros((3, rows, width), np.uint8)
+        self.id_grid = np.zeros((rows, width), np.int32)
+        self.numbers = self.number_grid.reshape(8, -1)
+        self.marks = self.mark_grid.reshape(3, -1)
+        self.ids = self.id_grid.reshape(-1)
         self.times = self.numbers[TIME]
-        self.first = np.zeros(rows + 1, np.int64)  # rank of each row's first key, and the number of keys
-        self.starts = [0.0] * rows
-        self.dirty: set[int] | None = None  # rows changed since the extremes were known; None: all
-        self.row_of[:] = -1
-        if n:
-            self._share_out(0, rows, keys)
-        else:
-            self.numbers[:], self.marks[:], self.ids[:] = 0.0, 0, 0
-
-    def _share_out(self, row0: int, row1: int, keys: Keys) -> None:
-        """Fill rows row0 to row1 evenly with *keys*, at least one each; their ranks begin at first[row0]."""
-        rows = row1 - row0
-        each, more = divmod(keys.count, rows)
-        at = 0
-        for begin, end, count in ((0, more, each + 1), (more, rows, each)):
-            if begin == end:
-                continue
-            taken = keys[at : at + (end - begin) * count]
-            at += taken.count
-            begin, end = begin + row0, end + row0
-            part = slice(begin * self.width, end * self.width)
-            for columns, new in (
-                (self.numbers, taken.numbers),
-                (self.marks, taken.marks),
-                (self.ids[None], taken.ids[None]),
-            ):
-                grid = columns[:, part].reshape(len(columns), end - begin, self.width)
-                grid[:, :, :count] = new.reshape(len(columns), end - begin, count)
-                grid[:, :, count:] = grid[:, :, count - 1 : count]
-            self.row_of = _grown(self.row_of, int(taken.ids.max()))
-            self.row_of[taken.ids] = np.repeat(np.arange(begin, end, dtype=np.int32), count)
-            self.first[begin + 1 : end + 1] = self.first[begin] + count * np.arange(1, end - begin + 1)
-            self.starts[begin:end] = self.times[part].reshape(end - begin, self.width)[:, 0].tolist()
-        if self.dirty is not None:
-            self.dirty.update(range(row0, row1))
+        self.first = np.zeros(rows + 1, np.int64)  # rank of each row's first key, and at the end the number of keys
+        self.starts = [0.0] * rows  # time of each row's first key
+        self.dirty = set(range(rows))  # rows whose keys changed since somebody cleared this set
 
     # --- places
 
-    @property
-    def rows(self) -> int:
-        """How many rows."""
-        return len(self.starts)
-
-    def count(self, row: int) -> int:
-        """How many keys *row* holds."""
-        return int(self.first[row + 1]) - int(self.first[row])
-
     def place(self, rank: int) -> tuple[int, int]:
         """(row, place in it) of the key of that rank; rank = size gives the place behind the last key."""
+        if self.rows == 1:
+            return 0, rank
         row = min(int(self.first.searchsorted(rank, "right")) - 1, self.rows - 1)
         return row, rank - int(self.first[row])
 
@@ -135,162 +87,258 @@ class Rows:
         row, place = self.place(rank)
         return row * self.width + place
 
-    def slots(self, rank0: int, rank1: int) -> NDArray[np.int64]:
+    def slots(self, ranks: Slots) -> Slots:
         """The slots of the keys of these ranks."""
-        ranks = np.arange(rank0, rank1)
         rows = self.first.searchsorted(ranks, "right") - 1
-        return rows * self.width + (ranks - self.first[rows])
+        return np.asarray(rows * self.width + (ranks - self.first[rows]), np.int64)
 
-    def real(self, slots: NDArray[np.int64]) -> NDArray[np.int64]:
+    def real(self, slots: Slots) -> Slots:
         """The slots of the keys that these slots hold or repeat."""
         rows = slots // self.width
-        return np.minimum(slots, rows * self.width + (self.first[rows + 1] - self.first[rows] - 1))
+        last: Slots = rows * self.width + (self.first[rows + 1] - self.first[rows] - 1)
+        return np.minimum(slots, last)
 
-    def ranks(self, slots: NDArray[np.int64]) -> NDArray[np.int64]:
+    def ranks(self, slots: Slots) -> Slots:
         """The ranks of the keys that these slots hold or repeat."""
-        slots = self.real(slots)
         rows = slots // self.width
-        return self.first[rows] + slots - rows * self.width
+        found: Slots = self.first[rows] + slots - rows * self.width
+        return np.minimum(found, self.first[rows + 1] - 1)
+
+    def held(self, row: int) -> int:
+        """How many keys *row* holds."""
+        return int(self.first[row + 1]) - int(self.first[row])
 
     def rank_of(self, key_id: int) -> int:
         """The rank of the key with this id; KeyGoneError if there is none."""
         row = int(self.row_of[key_id]) if 0 < key_id < len(self.row_of) else -1
         if row < 0:
-            raise KeyGoneError(f"no key with id {key_id}")
-        begin = row * self.width
-        return int(self.first[row]) + int((self.ids[begin : begin + self.width] == key_id).argmax())
+            raise KeyGoneError(f"there is no key with id {key_id}")
+        return int(self.first[row]) + int((self.id_grid[row] == key_id).argmax())
+
+    def ranks_of(self, ids: NDArray[np.int64]) -> Slots:
+        """The ranks of the keys with these ids, sorted, each once; KeyGoneError if one is gone."""
+        known = (ids > 0) & (ids < len(self.row_of))
+        rows = np.where(known, self.row_of[np.where(known, ids, 0)], -1)
+        if (rows < 0).any():
+            raise KeyGoneError(f"there is no key with id {ids[int((rows < 0).argmax())]}")
+        if len(ids) < 8:
+            return np.array(sorted({self.rank_of(key_id) for key_id in ids.tolist()}), np.int64)
+        wanted = np.zeros(len(self.row_of), np.bool_)
+        wanted[ids] = True
+        touched = np.unique(rows)
+        place = np.arange(self.width)
+        chosen = wanted[self.id_grid[touched]] & (place < (self.first[touched + 1] - self.first[touched])[:, None])
+        in_row, at = np.nonzero(chosen)
+        return np.asarray(self.first[touched[in_row]] + at, np.int64)
 
     def rank_at(self, time: float, *, after: bool = True) -> int:
         """How many keys lie at or before *time* (before it only, if not *after*)."""
         if self.size == 0:
             return 0
         row = max(bisect_right(self.starts, time) - 1, 0)
-        begin, count = row * self.width, self.count(row)
-        side = "right" if after else "left"
-        return int(self.first[row]) + int(self.times[begin : begin + count].searchsorted(time, side))  # type: ignore[call-overload]
+        times = self.number_grid[TIME, row, : self.held(row)]
+        return int(self.first[row]) + int(times.searchsorted(time, "right" if after else "left"))
 
-    # --- reading and replacing
-
-    def _blocks(self, rank0: int, rank1: int) -> Iterator[tuple[int, int, int, int]]:
-        """(rank, rows, first slot, keys a row) of groups of rows of equal count that hold these ranks."""
+    def blocks(self, rank0: int, rank1: int) -> Iterator[Block]:
+        """The keys of these ranks as blocks of at most AT_A_TIME rows."""
         if rank0 >= rank1:
             return
         row0, place0 = self.place(rank0)
         row1, place1 = self.place(rank1 - 1)
         if row0 == row1:
-            yield rank0, 1, row0 * self.width + place0, rank1 - rank0
+            yield Block(rank0, row0, 1, place0, rank1 - rank0, self.held(row0))
             return
-        yield rank0, 1, row0 * self.width + place0, self.count(row0) - place0
-        counts = np.diff(self.first[row0 + 1 : row1 + 1])
-        cuts = [0, *(np.flatnonzero(np.diff(counts)) + 1).tolist(), len(counts)] if len(counts) else []
-        for begin, end in zip(cuts, cuts[1:], strict=False):
-            row = row0 + 1 + begin
-            yield int(self.first[row]), end - begin, row * self.width, int(counts[begin])
-        yield int(self.first[row1]), 1, row1 * self.width, place1 + 1
+        if place0:
+            held = self.held(row0)
+            yield Block(rank0, row0, 1, place0, held - place0, held)
+            row0 += 1
+        held = self.held(row1)
+        stop = row1 + 1 if place1 + 1 == held else row1
+        counts = np.diff(self.first[row0 : stop + 1])
+        cuts = np.union1d(np.flatnonzero(np.diff(counts)) + 1, np.arange(0, len(counts), AT_A_TIME)).tolist()
+        for begin, end in pairwise([*cuts, len(counts)]):
+            count = int(counts[begin])
+            yield Block(int(self.first[row0 + begin]), row0 + begin, end - begin, 0, count, count)
+        if stop == row1:
+            yield Block(int(self.first[row1]), row1, 1, 0, place1 + 1, held)
 
-    def gathered(self, rank0: int, rank1: int) -> Keys:
-        """Copies of the keys of these ranks."""
-        keys = Keys.empty(rank1 - rank0)
-        for rank, rows, slot, count in self._blocks(rank0, rank1):
-            at = slice(rank - rank0, rank - rank0 + rows * count)
-            for columns, out in (
-                (self.numbers, keys.numbers),
-                (self.marks, keys.marks),
-                (self.ids[None], keys.ids[None]),
-            ):
-                out[:, at] = self._grid(columns, slot, rows, count).reshape(len(out), -1)
-        return keys
+    # --- reading and storing
 
-    def _grid(self, columns: NDArray[np.generic], slot: int, rows: int, count: int) -> NDArray[np.generic]:
-        """A view of *rows* rows of *count* keys each, beginning at *slot*: (columns, rows, count)."""
-        if rows == 1:
-            return columns[:, None, slot : slot + count]
-        return columns[:, slot : slot + rows * self.width].reshape(len(columns), rows, self.width)[:, :, :count]
+    def columns(self, rank0: int, rank1: int, *, stop: int = D_TIME + 1) -> Floats:
+        """Copies of the first *stop* columns of the keys of these ranks: (stop, n)."""
+        found = np.empty((stop, rank1 - rank0))
+        for rank, row, rows, place, count, _ in self.blocks(rank0, rank1):
+            part = found[:, rank - rank0 : rank - rank0 + rows * count].reshape(stop, rows, count)
+            part[:] = self.number_grid[:stop, row : row + rows, place : place + count]
+        return found
 
-    def replace(self, rank0: int, rank1: int, keys: Keys) -> None:
-        """Put *keys* in the place of those of ranks rank0 to rank1 (which may be none)."""
-        row0, place = self.place(rank0)
-        row1 = self.place(rank1 - 1)[0] if rank1 > rank0 else row0
-        count = self.count(row0)
-        new_count = count - (rank1 - rank0) + keys.count
-        if row0 == row1 and 0 < new_count <= self.width:
-            self._replace_in_row(row0, place, rank1 - rank0, keys)
-        elif self.size - (rank1 - rank0) + keys.count == 0:
-            self._lay_out(Keys.empty(0))
-        else:
-            self._replace_in_rows(rank0, rank1, keys, row0, row1)
+    def rules(self, rank0: int, rank1: int) -> NDArray[np.uint8]:
+        """Copies of the rules in and out of the keys of these ranks: (2, n)."""
+        found = np.empty((2, rank1 - rank0), np.uint8)
+        for rank, row, rows, place, count, _ in self.blocks(rank0, rank1):
+            part = found[:, rank - rank0 : rank - rank0 + rows * count].reshape(2, rows, count)
+            part[:] = self.mark_grid[:BROKEN, row : row + rows, place : place + count]
+        return found
 
-    def _replace_in_row(self, row: int, place: int, gone: int, keys: Keys) -> None:
-        begin, count, come = row * self.width, self.count(row), keys.count
-        new_count = count - gone + come
-        self.row_of[self.ids[begin + place : begin + place + gone]] = -1
-        row_slots = slice(begin, begin + self.width)
-        for columns, new in ((self.numbers, keys.numbers), (self.marks, keys.marks), (self.ids[None], keys.ids[None])):
-            line = columns[:, row_slots]
-            if gone != come:
-                line[:, place + come : new_count] = line[:, place + gone : count]
-            line[:, place : place + come] = new
-            line[:, new_count:] = line[:, new_count - 1 : new_count]
-        if come:
-            self.row_of = _grown(self.row_of, int(keys.ids.max()))
-            self.row_of[keys.ids] = row
-        if gone != come:
-            self.first[row + 1 :] += come - gone
-            self.size += come - gone
-        if place == 0:
-            self.starts[row] = float(self.times[begin])
-        if self.dirty is not None:
-            self.dirty.add(row)
+    def run(self, rank0: int, rank1: int) -> Run:
+        """The keys of these ranks."""
+        run = np.empty(rank1 - rank0, KEY_DTYPE)
+        for rank, row, rows, place, count, _ in self.blocks(rank0, rank1):
+            part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
+            at = np.s_[row : row + rows, place : place + count]
+            for field, column in NUMBER_FIELDS:
+                part[field] = self.number_grid[column][at]
+            for field, column in MARK_FIELDS:
+                part[field] = self.mark_grid[column][at]
+            part["id"] = self.id_grid[at]
+        return run
 
-    def _replace_in_rows(self, rank0: int, rank1: int, keys: Keys, row0: int, row1: int) -> None:
-        """Share out anew as many rows around as it takes; all of them if they are too full or too empty."""
-        new_size = self.size - (rank1 - rank0) + keys.count
-        begin, end, step = row0, row1 + 1, 1
+    def same_ids(self, rank0: int, ids: NDArray[np.int64]) -> bool:
+        """Whether the keys from rank0 on have exactly these *ids*; rank0 + len(ids) must not pass the last key."""
+        for rank, row, rows, place, count, _ in self.blocks(rank0, rank0 + len(ids)):
+            part = ids[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
+            if not (self.id_grid[row : row + rows, place : place + count] == part).all():
+                return False
+        return True
+
+    def _store(self, rank0: int, run: Run, *, ids_too: bool = True) -> None:
+        """Write *run* over the keys from rank0 on; coefficients are left as they are."""
+        for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + len(run)):
+            part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
+            at = np.s_[row : row + rows, place : place + count]
+            for field, column in NUMBER_FIELDS:
+                self.number_grid[column][at] = part[field]
+            for field, column in MARK_FIELDS:
+                self.mark_grid[column][at] = part[field]
+            if ids_too:
+                self.id_grid[at] = part["id"]
+                self._remember(self.id_grid[at], row)
+            self._repeat_last(row, row + rows, place + count, held)
+            if place == 0:
+                self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
+            self.dirty.update(range(row, row + rows))
+
+    def _repeat_last(self, row0: int, row1: int, written: int, held: int) -> None:
+        """Fill the spare slots of rows that hold *held* keys, the first *written* of which may be new."""
+        if written < held or held == self.width:
+            return
+        for grid in (self.number_grid, self.mark_grid, self.id_grid[None]):
+            part = grid[:, row0:row1]
+            part[:, :, held:] = part[:, :, held - 1 : held]
+
+    def _remember(self, ids: NDArray[np.int32], row: int) -> None:
+        """Note that these keys, one line for each row, are in rows *row* and following."""
+        highest = int(ids.max())
+        if highest >= len(self.row_of):
+            longer = np.full(max(highest + 1, len(self.row_of) * 5 // 4), -1, np.int32)
+            longer[: len(self.row_of)] = self.row_of
+            self.row_of = longer
+        self.row_of[ids] = np.arange(row, row + len(ids), dtype=np.int32)[:, None]
+
+    def _forget(self, rank0: int, rank1: int) -> None:
+        """Note that the keys of these ranks are gone."""
+        for _, row, rows, place, count, _ in self.blocks(rank0, rank1):
+            self.row_of[self.id_grid[row : row + rows, place : place + count]] = -1
+
+    def write(self, rank0: int, column0: int, numbers: Floats) -> None:
+        """Write columns column0 and following of the keys from rank0 on; numbers: (columns, n)."""
+        stop, n = column0 + len(numbers), numbers.shape[1]
+        for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + n):
+            grid = self.number_grid[column0:stop, row : row + rows]
+            part = numbers[:, rank - rank0 : rank - rank0 + rows * count]
+            grid[:, :, place : place + count] = part.reshape(len(numbers), rows, count)
+            if place + count == held < self.width:
+                grid[:, :, held:] = grid[:, :, held - 1 : held]
+            self.dirty.update(range(row, row + rows))
+
+    # --- replacing
+
+    def replace(self, rank0: int, rank1: int, run: Run) -> tuple[int, int]:
+        """Put *run* in the place of the keys of ranks rank0 to rank1 (which may be none).
+
+        Gives the ranks of all keys whose coefficients must be worked out anew because they are new or have moved.
+        """
+        gone, come = rank1 - rank0, len(run)
+        if gone == come:
+            same_ids = self.same_ids(rank0, run["id"])
+            if not same_ids:
+                self._forget(rank0, rank1)
+            self._store(rank0, run, ids_too=not same_ids)
+            return rank0, rank0 + come
+        row, place = self.place(rank0)
+        held = self.held(row)
+        roomy = self.rows > 1 and 8 * (self.size + come - gone) < len(self.ids)
+        if place + gone <= held and 0 < held + come - gone <= self.width and not roomy:
+            self._forget(rank0, rank1)
+            self._shift(row, place, gone, come)
+            self._store(rank0, run)
+            return rank0, rank0 + come
+        return self._share_out(rank0, rank1, run)
+
+    def _shift(self, row: int, place: int, gone: int, come: int) -> None:
+        """Move what follows in the row, so that *come* keys have room where *gone* were."""
+        held = self.held(row)
+        new_held = held + come - gone
+        for grid in (self.number_grid, self.mark_grid, self.id_grid[None]):
+            line = grid[:, row]
+            line[:, place + come : new_held] = line[:, place + gone : held]
+        self.first[row + 1 :] += come - gone
+        self.size += come - gone
+        if place + come < new_held:
+            self._repeat_last(row, row + 1, new_held, new_held)
+            if place == 0 and come == 0:
+                self.starts[row] = float(self.number_grid[TIME, row, 0])
+        elif come == 0:
+            self._repeat_last(row, row + 1, new_held, new_held)
+        self.dirty.add(row)
+
+    def _share_out(self, rank0: int, rank1: int, run: Run) -> tuple[int, int]:
+        """Replace, and fill as many rows around as it takes evenly; make new rows if they are too full or too empty."""
+        new_size = self.size - (rank1 - rank0) + len(run)
+        row0 = self.place(rank0)[0]
+        row1 = self.place(rank1 - 1)[0] + 1 if rank1 > rank0 else row0 + 1
+        row0, row1, step = max(0, row0 - 1), min(self.rows, row1 + 1), 2
+        if 8 * new_size < len(self.ids):
+            row0, row1 = 0, self.rows
         while True:
-            rows = end - begin
-            held = int(self.first[end] - self.first[begin]) - (rank1 - rank0) + keys.count
-            if rows <= held <= CROWDED * rows * self.width:
+            held = int(self.first[row1] - self.first[row0]) - (rank1 - rank0) + len(run)
+            if (row1 - row0) * self.width // 8 <= held <= CROWDED * (row1 - row0) * self.width:
                 break
-            if rows == self.rows:
-                head, tail = self.gathered(0, rank0), self.gathered(rank1, self.size)
-                self._lay_out(Keys.joined(head, keys, tail))
-                return
-            begin, end, step = max(0, begin - step), min(self.rows, end + step), 2 * step
-        base, stop = int(self.first[begin]), int(self.first[end])
-        head, tail = self.gathered(base, rank0), self.gathered(rank1, stop)
-        for _, rows, slot, count in self._blocks(rank0, rank1):
-            self.row_of[self._grid(self.ids[None], slot, rows, count).reshape(-1)] = -1
-        self._share_out(begin, end, Keys.joined(head, keys, tail))
-        self.first[end + 1 :] += new_size - self.size
+            if row1 - row0 == self.rows:
+                row0, row1 = 0, 0
+                break
+            row0, row1, step = max(0, row0 - step), min(self.rows, row1 + step), 2 * step
+        everything = row0 == row1
+        base, stop = (0, self.size) if everything else (int(self.first[row0]), int(self.first[row1]))
+        shared = np.concatenate([self.run(base, rank0), run, self.run(rank1, stop)])
+        self._forget(rank0, rank1)
+        if everything:
+            self._make(new_size)
+            row1 = self.rows
         self.size = new_size
+        self.first[row1 + 1 :] += base + len(shared) - stop
+        each, more = divmod(len(shared), row1 - row0)
+        self.first[row0 + 1 : row1 + 1] = base + np.cumsum(np.repeat([each + 1, each], [more, row1 - row0 - more]))
+        self._store(base, shared)
+        return base, base + len(shared)
 
     def check(self) -> None:
-        """Assert order, counts, links of keys to rows both ways, unique ids and padding."""
+        """Assert order, counts, links of keys to rows both ways, unique ids, and what the spare slots repeat."""
         assert self.first[0] == 0
         assert self.first[-1] == self.size
-        assert len(self.first) == self.rows + 1
-        counts = np.diff(self.first)
-        assert self.size == 0 or (counts.min() > 0 and counts.max() <= self.width)
-        slots = self.slots(0, self.size)
+        assert len(self.first) == self.rows + 1 == len(self.starts) + 1
+        held = np.diff(self.first)
+        assert self.size == 0 or (held.min() > 0 and held.max() <= self.width)
+        slots = self.slots(np.arange(self.size))
         assert (np.diff(self.times[slots]) > 0.0).all(), "times are not in order"
         ids = self.ids[slots]
-        assert len(np.unique(ids)) == self.size
+        assert len(np.unique(ids)) == self.size, "two keys have one id"
         assert (ids > 0).all()
         assert np.array_equal(self.row_of[ids], slots // self.width), "a key does not know its row"
         assert int((self.row_of >= 0).sum()) == self.size, "a deleted key still has a row"
         if self.size:
             real = self.real(np.arange(len(self.ids)))
             for columns in (self.numbers, self.marks, self.ids[None]):
-                assert columns.tobytes() == columns[:, real].tobytes(), (
-                    "a spare slot does not repeat its row's last key"
-                )
-            assert self.starts == self.times[:: self.width].tolist()
-
-
-def _grown(row_of: NDArray[np.int32], key_id: int) -> NDArray[np.int32]:
-    """The map with room for *key_id*."""
-    if key_id < len(row_of):
-        return row_of
-    longer = np.full(max(key_id + 1, len(row_of) * 3 // 2), -1, np.int32)
-    longer[: len(row_of)] = row_of
-    return longer
+                same = columns.tobytes() == columns[:, real].tobytes()
+                assert same, "a spare slot does not repeat its row's last key"
+            assert self.starts == self.number_grid[TIME, :, 0].tolist()

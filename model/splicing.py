@@ -1,178 +1,255 @@
-"""What a splice must satisfy, and what it rebuilds: slopes by rule and coefficients around the new keys."""
+"""What a splice must satisfy, what it rebuilds (slopes by rule, coefficients), and how far its effect reaches."""
+
+from math import inf
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from model import hermite
 from model.extrapolation import EXTRAPOLATIONS, Extrapolation
-from model.hermite import Floats
-from model.keyframe import Run, TangentRule
-from model.rows import (
-    BROKEN,
-    D_TIME,
-    RULE_IN,
-    RULE_OUT,
-    SLOPE_IN,
-    SLOPE_OUT,
-    TIME,
-    VALUE,
-    A,
-    B,
-    C,
-    Keys,
-    Rows,
-)
-from model.tangents import TANGENT_RULES, slopes_of
+from model.keyframe import KeyGoneError, Run, TangentRule
+from model.rows import D_TIME, NUMBER_FIELDS, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, C, Rows
+from model.tangents import TANGENT_RULES, slope_pair, slopes_of
 
 # How far beyond the ids handed out so far a given id may lie; more is taken for a damaged record.
 ID_GAP = 1 << 24
+# Keys checked or rebuilt at a time: their columns stay in the processor's cache.
+AT_A_TIME = 8192
+# Up to so many keys are rebuilt in Python numbers, which is quicker than numpy on short columns.
+FEW = 6
+
+_IN_RULES = np.array([rule in TANGENT_RULES and rule != TangentRule.STEP for rule in range(256)])
+_OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
+
+
+class Outer(NamedTuple):
+    """The bits of a channel just outside a run, and at its ends, that a splice of the run may change."""
+
+    time_before: float  # of the neighbour before the run; -inf without one
+    time_after: float
+    slope_before: bytes  # slope in of the neighbour before
+    slope_after: bytes  # slope out of the neighbour after
+    first: tuple[bytes, bytes, bytes]  # time, value, slope in of the first key
+    last: tuple[bytes, bytes, bytes]  # time, value, slope out of the last key
+
+
+# --- what a run must be
 
 
 def rank_of_run(rows: Rows, before: Run, after: Run) -> int:
     """The rank at which *before* begins, or *after* belongs if *before* is empty; ValueError if it is not there."""
     if len(before) == 0:
-        return rows.rank_at(float(after["time"][0])) if len(after) and after["time"][0] == after["time"][0] else 0
+        return rows.rank_at(float(after["time"][0])) if len(after) else 0
     try:
         rank = rows.rank_of(int(before["id"][0]))
-    except LookupError as error:
-        raise ValueError(f"cannot replace key 0 of the run: {error}") from None
-    if rank + len(before) > rows.size or not np.array_equal(
-        rows.ids[rows.slots(rank, rank + len(before))], before["id"]
-    ):
+    except KeyGoneError as error:
+        raise ValueError(f"the run to replace is not in the channel: {error}") from None
+    end = rank + len(before)
+    if end > rows.size or not rows.same_ids(rank, before["id"]):
         raise ValueError("the run to replace is not what the channel holds now")
     return rank
 
 
-def checked(rows: Rows, rank: int, before: Run, after: Run, next_id: int) -> tuple[Keys, int]:
-    """*after* as columns with ids for all, and the next id to hand out; ValueError names key and field."""
-    keys = Keys.empty(len(after))
-    if not len(after):
-        return keys, next_id
-    for column, field in ((TIME, "time"), (VALUE, "value"), (SLOPE_IN, "slope_in"), (SLOPE_OUT, "slope_out")):
-        keys.numbers[column] = after[field]
-        if not np.isfinite(keys.numbers[column]).all():
-            bad = int(np.flatnonzero(~np.isfinite(after[field]))[0])
-            raise ValueError(f"key {bad}: {field} is {after[field][bad]}; it must be finite")
-    for mark, field in ((RULE_IN, "rule_in"), (RULE_OUT, "rule_out")):
-        keys.marks[mark] = after[field]
-        for rule in np.unique(after[field]).tolist():
-            if rule not in TANGENT_RULES or (mark == RULE_IN and rule == TangentRule.STEP):
-                bad = int(np.flatnonzero(after[field] == rule)[0])
-                raise ValueError(f"key {bad}: {field} is {rule}; there is no such rule on this side")
-    keys.marks[BROKEN] = after["broken"]
-    _check_order(rows, rank, rank + len(before), keys.numbers[TIME])
-    keys.ids[:], next_id = _ids(rows, before, after, next_id)
-    return keys, next_id
+def check_run(rows: Rows, rank0: int, rank1: int, run: Run) -> None:
+    """Raise ValueError, naming key and field, unless *run* can stand where the keys rank0 to rank1 stand."""
+    last = -inf if rank0 == 0 else float(rows.times[rows.slot(rank0 - 1)])
+    for at in range(0, len(run), AT_A_TIME):
+        part = run[at : at + AT_A_TIME]
+        for field, _ in NUMBER_FIELDS:
+            fine = np.isfinite(part[field])
+            if not fine.all():
+                bad = int(fine.argmin())
+                raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; it must be finite")
+        for field, known in (("rule_in", _IN_RULES), ("rule_out", _OUT_RULES)):
+            fine = known[part[field]]
+            if not fine.all():
+                bad = int(fine.argmin())
+                raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; there is no such rule on this side")
+        values = part["value"]
+        if not rows.minus_zero and not values.all():
+            rows.minus_zero = bool(np.signbit(values[values == 0.0]).any())
+        times = part["time"]
+        if times[0] <= last:
+            raise ValueError(f"key {at}: time {float(times[0])!r} is not after {last!r}, the time of the key before")
+        turned = times[1:] <= times[:-1]
+        if turned.any():
+            bad = int(turned.argmax()) + 1
+            here, before = float(times[bad]), float(times[bad - 1])
+            raise ValueError(f"key {at + bad}: time {here!r} is not after {before!r}, the time of the key before")
+        last = float(times[-1])
+    if len(run) and rank1 < rows.size and last >= (following := float(rows.times[rows.slot(rank1)])):
+        raise ValueError(f"key {len(run) - 1}: time {last!r} is not before {following!r}, the time of the key after")
 
 
-def _check_order(rows: Rows, rank0: int, rank1: int, times: Floats) -> None:
-    turned = times[1:] <= times[:-1]
-    if turned.any():
-        bad = int(turned.argmax()) + 1
-        raise ValueError(f"key {bad}: time {times[bad]!r} is not after {times[bad - 1]!r}, the time of the key before")
-    if rank0 > 0 and times[0] <= (left := rows.times[rows.slot(rank0 - 1)]):
-        raise ValueError(f"key 0: time {times[0]!r} is not after {left!r}, the time of the neighbour before")
-    if rank1 < rows.size and times[-1] >= (right := rows.times[rows.slot(rank1)]):
-        raise ValueError(f"key {len(times) - 1}: time {times[-1]!r} is not before {right!r}, the time of the neighbour")
-
-
-def _ids(rows: Rows, before: Run, after: Run, next_id: int) -> tuple[np.ndarray, int]:
-    ids = after["id"].astype(np.int64)
-    if ids.min() < 0 or ids.max() >= min(next_id + ID_GAP, 2**31 - 1):
-        raise ValueError(f"key {int(ids.argmax())}: id {ids.max()} was never handed out by this channel")
+def ids_for(rows: Rows, before: Run, after: Run, next_id: int) -> tuple[NDArray[np.int64] | None, int]:
+    """(ids for *after*, or None if it can keep its own; the next id to hand out); ValueError for ids it cannot have."""
+    ids = after["id"]
+    if len(ids) == len(before) and np.array_equal(ids, before["id"]):
+        return None, next_id
+    if not len(ids):
+        return None, next_id
+    lowest, highest = int(ids.min()), int(ids.max())
+    if lowest < 0 or highest >= min(next_id + ID_GAP, 2**31 - 1):
+        wrong = lowest if lowest < 0 else highest
+        raise ValueError(f"key {int((ids == wrong).argmax())}: id {wrong} was never handed out by this channel")
+    next_id = max(next_id, highest + 1)
     fresh = ids == 0
-    given = ids[~fresh]
-    next_id = max(next_id, int(given.max()) + 1 if len(given) else 0)
-    if not np.array_equal(given, before["id"]):
+    count = int(fresh.sum())
+    if count < len(ids):
+        given = ids[~fresh] if count else ids
         if len(np.unique(given)) < len(given):
-            raise ValueError("two keys of the run have the same id")
+            raise ValueError("id: two keys of the run have the same one")
         known = given[given < len(rows.row_of)]
-        there = np.setdiff1d(known[rows.row_of[known] >= 0], before["id"])
-        if len(there):
-            raise ValueError(f"id {there[0]} belongs to a key outside the run")
-    ids[fresh] = np.arange(next_id, next_id + int(fresh.sum()))
-    return ids, next_id + int(fresh.sum())
+        strangers = np.setdiff1d(known[rows.row_of[known] >= 0], before["id"])
+        if len(strangers):
+            raise ValueError(f"id {strangers[0]} belongs to a key outside the run")
+        if not count:
+            return None, next_id
+    filled = ids.copy()
+    filled[fresh] = np.arange(next_id, next_id + count)
+    return filled, next_id + count
 
 
-def rebuild(keys: Keys, begin: int, end: int, *, at_first: bool, at_last: bool) -> None:
-    """Work out the slopes of keys begin to end, and the coefficients of all spans but what follows the window.
+# --- what follows from a run
 
-    *keys* is a window of neighbours; at_first and at_last say whether it begins and ends where the channel does.
-    """
-    n, m = keys.numbers, keys.marks
-    slopes_in, slopes_out = slopes_of(n[TIME], n[VALUE], n[SLOPE_IN], n[SLOPE_OUT], m[RULE_IN], m[RULE_OUT])
-    n[SLOPE_IN, begin:end], n[SLOPE_OUT, begin:end] = slopes_in[begin:end], slopes_out[begin:end]
+
+def rebuild(rows: Rows, rank0: int, rank1: int) -> None:
+    """Work out the slopes of the keys rank0 to rank1, and the coefficients of the spans they start."""
+    rank0, rank1 = max(rank0, 0), min(rank1, rows.size)
+    if rank1 - rank0 <= FEW:
+        _rebuild_few(rows, rank0, rank1)
+        return
+    for begin in range(rank0, rank1, AT_A_TIME):
+        _rebuild_many(rows, begin, min(begin + AT_A_TIME, rank1))
+
+
+def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
+    # One key before, one after for the last span, and that key's other neighbour for its slope.
+    left, right = max(rank0 - 1, 0), min(rank1 + 2, rows.size)
+    n = rows.columns(left, right, stop=SLOPE_OUT + 1)
+    rule_in, rule_out = rows.rules(left, right)
+    slope_in, slope_out = slopes_of(n[TIME], n[VALUE], n[SLOPE_IN], n[SLOPE_OUT], rule_in, rule_out)
+    here, spans = slice(rank0 - left, rank1 - left), slice(rank0 - left, min(rank1, rows.size - 1) - left)
+    after = slice(spans.start + 1, spans.stop + 1)
+    out = np.empty((6, rank1 - rank0))
+    out[0], out[1] = slope_in[here], slope_out[here]
+    count = spans.stop - spans.start
     with np.errstate(all="ignore"):
-        n[D_TIME, :-1] = n[TIME, 1:] - n[TIME, :-1]
-        n[A, :-1], n[B, :-1], n[C, :-1] = hermite.coefficients(
-            n[D_TIME, :-1], n[VALUE, :-1], n[VALUE, 1:], n[SLOPE_OUT, :-1], n[SLOPE_IN, 1:]
+        d_time = np.minimum(n[TIME, after] - n[TIME, spans], hermite.LARGEST)
+        out[5, :count] = d_time
+        out[2, :count], out[3, :count], out[4, :count] = hermite.coefficients(
+            d_time, n[VALUE, spans], n[VALUE, after], slope_out[spans], slope_in[after]
         )
-    held = np.flatnonzero(m[RULE_OUT] == TangentRule.STEP)
-    n[A : C + 1, held] = 0.0
-    if at_last and keys.count:
-        n[A : C + 1, -1], n[D_TIME, -1] = 0.0, 1.0
+    held = rule_out[here] == TangentRule.STEP
+    if held.any():
+        out[2:5, held] = 0.0
+    if rank1 == rows.size:
+        out[2:5, -1], out[5, -1] = 0.0, 1.0
+    rows.write(rank0, SLOPE_IN, out)
 
 
-def spliced(
-    rows: Rows, rank: int, gone: int, new: Keys, pre: Extrapolation, post: Extrapolation
-) -> tuple[float, float, int]:
-    """Put *new* in the place of *gone* keys at *rank*: (t0, t1) of what changed, and how many keys were stored."""
-    if not gone and not new.count:
-        return np.inf, -np.inf, 0
-    left, right = max(0, rank - 2), min(rows.size, rank + gone + 2)
-    old = rows.gathered(left, right)
-    begin, old_end = rank - left, rank - left + gone
-    end = begin + new.count
-    window = Keys.joined(old[:begin], new, old[old_end:])
-    at_first, at_last = left == 0, right == rows.size
-    touched = slice(max(0, begin - 1), min(window.count, end + 1))
-    rebuild(window, touched.start, touched.stop, at_first=at_first, at_last=at_last)
-    t0, t1 = _reach(old, window, begin, old_end, end, at_first, at_last, pre, post)
-    rows.replace(left, right, window)
-    return t0, t1, new.count
+def _rebuild_few(rows: Rows, rank0: int, rank1: int) -> None:
+    left, right = max(rank0 - 1, 0), min(rank1 + 2, rows.size)
+    times, values, slopes_in, slopes_out = rows.columns(left, right, stop=SLOPE_OUT + 1).tolist()
+    rules_in, rules_out = rows.rules(left, right).tolist()
+    n = right - left
+    for i in range(rank0 - left, min(rank1 + 1, rows.size) - left):
+        j, k = max(i - 1, 0), min(i + 1, n - 1)
+        slopes_in[i], slopes_out[i] = slope_pair(
+            times[j : k + 1], values[j : k + 1], i - j, rules_in[i], rules_out[i], slopes_in[i], slopes_out[i]
+        )
+    out = []
+    for i in range(rank0 - left, rank1 - left):
+        a = b = c = 0.0
+        d_time = 1.0
+        if i + 1 < n:
+            d_time = min(times[i + 1] - times[i], hermite.LARGEST)
+            if rules_out[i] != TangentRule.STEP:
+                a, b, c = hermite.coefficients(d_time, values[i], values[i + 1], slopes_out[i], slopes_in[i + 1])
+        out.append((slopes_in[i], slopes_out[i], a, b, c, d_time))
+    if out:
+        rows.write(rank0, SLOPE_IN, np.array(out).T)
 
 
-def _reach(
-    old: Keys,
-    new: Keys,
-    begin: int,
-    old_end: int,
-    end: int,
-    at_first: bool,
-    at_last: bool,
+# --- how far a splice reaches
+
+
+def outer(rows: Rows, rank0: int, rank1: int) -> Outer:
+    """What lies around the keys of ranks rank0 to rank1."""
+    n = rows.numbers
+    time_before, time_after, slope_before, slope_after = -inf, inf, b"", b""
+    if rank0 > 0:
+        slot = rows.slot(rank0 - 1)
+        time_before, slope_before = float(n[TIME, slot]), n[SLOPE_IN, slot].tobytes()
+    if rank1 < rows.size:
+        slot = rows.slot(rank1)
+        time_after, slope_after = float(n[TIME, slot]), n[SLOPE_OUT, slot].tobytes()
+    last = rows.slot(rows.size - 1) if rows.size else 0
+    first_bits = (n[TIME, 0].tobytes(), n[VALUE, 0].tobytes(), n[SLOPE_IN, 0].tobytes())
+    last_bits = (n[TIME, last].tobytes(), n[VALUE, last].tobytes(), n[SLOPE_OUT, last].tobytes())
+    return Outer(time_before, time_after, slope_before, slope_after, first_bits, last_bits)
+
+
+def reach(
+    rows: Rows,
+    rank0: int,
+    rank1: int,
+    old: Outer,
+    old_times: tuple[float, float],
     pre: Extrapolation,
     post: Extrapolation,
 ) -> tuple[float, float]:
-    if not old.count or not new.count:
-        return -np.inf, np.inf
-    t0 = min(old.numbers[TIME, max(begin - 1, 0)], new.numbers[TIME, max(begin - 1, 0)])
-    if begin > 1 and _bits(old, SLOPE_IN, begin - 1) != _bits(new, SLOPE_IN, begin - 1):
-        t0 = old.numbers[TIME, begin - 2]
-    old_next, new_next = min(old_end, old.count - 1), min(end, new.count - 1)
-    t1 = max(old.numbers[TIME, old_next], new.numbers[TIME, new_next])
-    if old_end + 1 < old.count and _bits(old, SLOPE_OUT, old_end) != _bits(new, SLOPE_OUT, end):
-        t1 = old.numbers[TIME, old_end + 1]
-    if EXTRAPOLATIONS[pre].repeats or (at_first and _end_changed(old, new, 0, SLOPE_IN, pre)):
-        t0 = -np.inf
-    if EXTRAPOLATIONS[post].repeats or (at_last and _end_changed(old, new, -1, SLOPE_OUT, post)):
-        t1 = np.inf
-    return float(t0), float(t1)
+    """(t0, t1) of what changed, now that the keys of ranks rank0 to rank1 stand where *old* was around others.
+
+    *old_times* are those of the first and last key replaced.
+    """
+    new = outer(rows, rank0, rank1)
+    t0, t1 = new.time_before, new.time_after
+    if t0 == -inf:
+        t0 = min(old_times[0], float(rows.times[0]))
+    elif old.slope_before != new.slope_before and rank0 > 1:
+        t0 = float(rows.times[rows.slot(rank0 - 2)])
+    if t1 == inf:
+        t1 = max(old_times[1], float(rows.times[rows.slot(rows.size - 1)]))
+    elif old.slope_after != new.slope_after and rank1 + 1 < rows.size:
+        t1 = float(rows.times[rows.slot(rank1 + 1)])
+    if _goes_on_differently(old.first, new.first, pre):
+        t0 = -inf
+    if _goes_on_differently(old.last, new.last, post):
+        t1 = inf
+    return t0, t1
 
 
-def _bits(keys: Keys, column: int, place: int) -> bytes:
-    return keys.numbers[column, place].tobytes()
+def _goes_on_differently(old: tuple[bytes, bytes, bytes], new: tuple[bytes, bytes, bytes], mode: Extrapolation) -> bool:
+    """Whether the curve beyond an end key changed, from that key's time, value and outward slope."""
+    if EXTRAPOLATIONS[mode].repeats:
+        return True
+    return old != new if mode is Extrapolation.LINEAR else old[1] != new[1]
 
 
-def _end_changed(old: Keys, new: Keys, place: int, slope: int, mode: Extrapolation) -> bool:
-    columns = (TIME, VALUE, slope) if mode is Extrapolation.LINEAR else (VALUE,)
-    return any(_bits(old, column, place) != _bits(new, column, place) for column in columns)
+# --- what must always hold
 
 
 def check(rows: Rows, next_id: int) -> None:
-    """Assert what must hold of *rows*: order, finite numbers, links, ids, padding, slopes and coefficients."""
+    """Assert that all numbers are finite, and that slopes and coefficients are those that follow from the rules."""
     rows.check()
-    keys = rows.gathered(0, rows.size)
-    assert np.isfinite(keys.numbers[[TIME, VALUE, SLOPE_IN, SLOPE_OUT]]).all()
-    assert keys.count == 0 or int(keys.ids.max()) < next_id
-    again = Keys(keys.numbers.copy(), keys.marks.copy(), keys.ids.copy())
-    rebuild(again, 0, again.count, at_first=True, at_last=True)
-    assert again.numbers.tobytes() == keys.numbers.tobytes(), "slopes or coefficients are not what the rules say"
+    numbers = rows.columns(0, rows.size)
+    assert np.isfinite(numbers[: SLOPE_OUT + 1]).all(), "a number is not finite"
+    assert (numbers[D_TIME] > 0.0).all()
+    rules_in, rules_out = rows.rules(0, rows.size)
+    assert _IN_RULES[rules_in].all(), "no such rule in"
+    assert _OUT_RULES[rules_out].all(), "no such rule out"
+    assert rows.size == 0 or int(rows.ids.max()) < next_id, "an id will be handed out twice"
+    t, v, slope_in, slope_out = numbers[: SLOPE_OUT + 1]
+    again = np.array(slopes_of(t, v, slope_in, slope_out, rules_in, rules_out))
+    assert again.tobytes() == numbers[SLOPE_IN : SLOPE_OUT + 1].tobytes(), "a slope is not what its rule says"
+    if rows.size:
+        with np.errstate(all="ignore"):
+            d_time = np.append(np.minimum(np.diff(t), hermite.LARGEST), 1.0)
+            spans = hermite.coefficients(d_time[:-1], v[:-1], v[1:], slope_out[:-1], slope_in[1:])
+        expected = np.zeros((3, rows.size))
+        expected[:, :-1] = spans
+        expected[:, rules_out == TangentRule.STEP] = 0.0
+        assert d_time.tobytes() == numbers[D_TIME].tobytes(), "a span does not know its length"
+        assert expected.tobytes() == numbers[A : C + 1].tobytes(), "coefficients are not those of the slopes"

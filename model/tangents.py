@@ -1,6 +1,7 @@
 """TANGENT_RULES: the slope each rule gives to one side of a key."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -12,135 +13,186 @@ from model.keyframe import TangentRule
 type Marks = NDArray[np.uint8]
 
 
-class Chords(NamedTuple):
-    """What the rules look at; arrays of one length, or numbers for one key.
+class Chords:
+    """The chords that rules look at, of n neighbouring keys seen as a whole channel; each of shape (n,).
 
-    `before` and `after` are the chords to the two neighbours, `around` the one from neighbour to neighbour;
-    at an end of the channel all three are the only chord there is, and 0 for a lone key.
+    At an end key all three are the only chord there is; for a lone key they are 0.
     """
 
-    before: Floats
-    after: Floats
-    around: Floats
+    def __init__(self, times: Floats, values: Floats) -> None:
+        self._times, self._values = times, values
+
+    @cached_property
+    def _spans(self) -> Floats:
+        return _slopes_between(self._times[:-1], self._values[:-1], self._times[1:], self._values[1:])
+
+    @cached_property
+    def before(self) -> Floats:
+        """From the key before to the key."""
+        if len(self._times) < 2:
+            return np.zeros(len(self._times))
+        return np.concatenate([self._spans[:1], self._spans])
+
+    @cached_property
+    def after(self) -> Floats:
+        """From the key to the key after."""
+        if len(self._times) < 2:
+            return np.zeros(len(self._times))
+        return np.concatenate([self._spans, self._spans[-1:]])
+
+    @cached_property
+    def around(self) -> Floats:
+        """From the key before to the key after."""
+        t, v = self._times, self._values
+        found = np.zeros(len(t))
+        if len(t) > 2:
+            found[1:-1] = _slopes_between(t[:-2], v[:-2], t[2:], v[2:])
+        if len(t) > 1:
+            found[0] = slope_between(float(t[0]), float(v[0]), float(t[1]), float(v[1]))
+            found[-1] = slope_between(float(t[-2]), float(v[-2]), float(t[-1]), float(v[-1]))
+        return found
 
 
-class OneKeyChords(NamedTuple):
-    """The same for one key, in Python numbers."""
+class KeyChords(NamedTuple):
+    """The same chords of one key, in Python numbers."""
 
     before: float
     after: float
     around: float
 
 
-class Row(NamedTuple):
-    """One tangent rule: what the artist reads, and its slopes in and out (None: the stored slope stays)."""
+class RuleRow(NamedTuple):
+    """One tangent rule: what the artist reads, the sides it can be on, and the slope it gives.
+
+    `slope` works on many keys, `key_slope` on one with the same bits; None leaves the slope as it was given.
+    """
 
     label: str
     tip: str
+    sides: tuple[str, ...]
     slope_in: Callable[[Chords], Floats] | None
     slope_out: Callable[[Chords], Floats] | None
-    one_in: Callable[[OneKeyChords], float] | None
-    one_out: Callable[[OneKeyChords], float] | None
-    sides: str = "both"
+    key_slope_in: Callable[[KeyChords], float] | None
+    key_slope_out: Callable[[KeyChords], float] | None
 
 
-def _zero(chords: Chords) -> Floats:
-    return np.zeros_like(chords.around)
-
-
-def _limited(chords: Chords) -> Floats:
-    """The smooth slope, but 0 where the chords turn and never above three times the flatter chord."""
-    limit = np.minimum(np.abs(chords.before), np.abs(chords.after))
-    limit = np.where(limit < LARGEST / 3.0, 3.0 * limit, LARGEST)
-    slope = np.clip(chords.around, -limit, limit)
-    rising = (chords.before > 0.0) & (chords.after > 0.0)
-    falling = (chords.before < 0.0) & (chords.after < 0.0)
-    return np.where(rising | falling, slope, 0.0)
-
-
-def _limited_one(chords: OneKeyChords) -> float:
-    before, after, slope = chords
-    if not (before > 0.0 and after > 0.0) and not (before < 0.0 and after < 0.0):
-        return 0.0
-    limit = min(abs(before), abs(after))
-    limit = 3.0 * limit if limit < LARGEST / 3.0 else LARGEST
-    return min(max(slope, -limit), limit)
-
-
-TANGENT_RULES: dict[TangentRule, Row] = {
-    TangentRule.FLAT: Row("Flat", "Level: the slope is 0", _zero, _zero, lambda c: 0.0, lambda c: 0.0),
-    TangentRule.LINEAR: Row(
-        "Linear",
-        "Straight towards the neighbour",
-        lambda c: c.before,
-        lambda c: c.after,
-        lambda c: c.before,
-        lambda c: c.after,
-    ),
-    TangentRule.SMOOTH: Row(
-        "Smooth",
-        "Along the line through the two neighbours",
-        lambda c: c.around,
-        lambda c: c.around,
-        lambda c: c.around,
-        lambda c: c.around,
-    ),
-    TangentRule.FIXED: Row("Fixed", "The slope you gave", None, None, None, None),
-    TangentRule.STEP: Row("Step", "Holds the value until the next key", None, _zero, None, lambda c: 0.0, sides="out"),
-    TangentRule.AUTO: Row(
-        "Auto", "Smooth, and never past the neighbours' values", _limited, _limited, _limited_one, _limited_one
-    ),
-}
-
-
-def chord(time0: float, value0: float, time1: float, value1: float) -> float:
-    """The slope of the line from key 0 to key 1, never beyond +-LARGEST."""
+def slope_between(time0: float, value0: float, time1: float, value1: float) -> float:
+    """The slope of the line from key 0 to key 1; one too steep for a double becomes +-LARGEST."""
     slope = (value1 - value0) / (time1 - time0)
     if slope - slope != 0.0:
         slope = (0.5 * value1 - 0.5 * value0) / (0.5 * time1 - 0.5 * time0)
     return min(max(slope, -LARGEST), LARGEST)
 
 
-def chords(time0: Floats, value0: Floats, time1: Floats, value1: Floats) -> Floats:
-    """The same for many pairs of keys."""
+def _slopes_between(time0: Floats, value0: Floats, time1: Floats, value1: Floats) -> Floats:
     with np.errstate(all="ignore"):
-        slopes = (value1 - value0) / (time1 - time0)
+        slopes: Floats = (value1 - value0) / (time1 - time0)
         wild = ~np.isfinite(slopes)
         if wild.any():
-            half = 0.5 * value1[wild] - 0.5 * value0[wild]
-            slopes[wild] = np.clip(half / (0.5 * time1[wild] - 0.5 * time0[wild]), -LARGEST, LARGEST)
+            d_value = 0.5 * value1[wild] - 0.5 * value0[wild]
+            slopes[wild] = np.clip(d_value / (0.5 * time1[wild] - 0.5 * time0[wild]), -LARGEST, LARGEST)
     return slopes
 
 
-def chords_of(times: Floats, values: Floats) -> Chords:
-    """The chords of neighbouring keys, as if they were a whole channel; all of shape (n,)."""
-    n = len(times)
-    if n < 2:
-        zero = np.zeros(n)
-        return Chords(zero, zero, zero)
-    spans = chords(times[:-1], values[:-1], times[1:], values[1:])
-    before, after, around = np.empty(n), np.empty(n), np.empty(n)
-    before[0], before[1:] = spans[0], spans
-    after[-1], after[:-1] = spans[-1], spans
-    around[0], around[-1] = spans[0], spans[-1]
-    if n > 2:
-        around[1:-1] = chords(times[:-2], values[:-2], times[2:], values[2:])
-    return Chords(before, after, around)
+def _zero(chords: Chords) -> Floats:
+    return np.zeros(len(chords.around))
+
+
+def _limited(chords: Chords) -> Floats:
+    """The smooth slope, but 0 where the curve turns and never more than three times the flatter chord."""
+    before, after = chords.before, chords.after
+    with np.errstate(all="ignore"):
+        limit = np.minimum(3.0 * np.minimum(np.abs(before), np.abs(after)), LARGEST)
+    turns = ~(((before > 0.0) & (after > 0.0)) | ((before < 0.0) & (after < 0.0)))
+    return np.where(turns, 0.0, np.minimum(np.maximum(chords.around, -limit), limit))
+
+
+def _key_limited(chords: KeyChords) -> float:
+    before, after, slope = chords
+    if not ((before > 0.0 and after > 0.0) or (before < 0.0 and after < 0.0)):
+        return 0.0
+    limit = min(3.0 * min(abs(before), abs(after)), LARGEST)
+    return min(max(slope, -limit), limit)
+
+
+def _around(chords: Chords) -> Floats:
+    return chords.around
+
+
+def _key_around(chords: KeyChords) -> float:
+    return chords.around
+
+
+def _key_zero(chords: KeyChords) -> float:
+    return 0.0
+
+
+_BOTH = ("in", "out")
+
+TANGENT_RULES: dict[TangentRule, RuleRow] = {
+    # A rest or an extremum: the curve runs level through the key.
+    TangentRule.FLAT: RuleRow("Flat", "Level through the key", _BOTH, _zero, _zero, _key_zero, _key_zero),
+    # A corner: the curve leaves straight for its neighbour.
+    TangentRule.LINEAR: RuleRow(
+        "Linear",
+        "Straight towards the neighbour",
+        _BOTH,
+        lambda chords: chords.before,
+        lambda chords: chords.after,
+        lambda chords: chords.before,
+        lambda chords: chords.after,
+    ),
+    # The common case: no corner, but it may swing past the keys' values.
+    TangentRule.SMOOTH: RuleRow(
+        "Smooth", "Along the line from neighbour to neighbour", _BOTH, _around, _around, _key_around, _key_around
+    ),
+    # The user's own slope.
+    TangentRule.FIXED: RuleRow("Fixed", "The slope you gave", _BOTH, None, None, None, None),
+    # No movement until the next key, then a jump.
+    TangentRule.STEP: RuleRow("Step", "Holds its value until the next key", ("out",), None, _zero, None, _key_zero),
+    # Smooth without overshoot: level at extrema, and the curve stays between neighbouring values.
+    TangentRule.AUTO: RuleRow(
+        "Auto", "Smooth, but never past the keys' values", _BOTH, _limited, _limited, _key_limited, _key_limited
+    ),
+}
+
+_KEY_SLOPES_IN = [TANGENT_RULES[rule].key_slope_in for rule in TangentRule]
+_KEY_SLOPES_OUT = [TANGENT_RULES[rule].key_slope_out for rule in TangentRule]
 
 
 def slopes_of(
     times: Floats, values: Floats, slopes_in: Floats, slopes_out: Floats, rules_in: Marks, rules_out: Marks
 ) -> tuple[Floats, Floats]:
-    """(slopes in, slopes out) by rule for neighbouring keys seen as a whole channel; fixed sides keep theirs."""
-    around = chords_of(times, values)
-    slopes_in, slopes_out = slopes_in.copy(), slopes_out.copy()
-    for rule, row in TANGENT_RULES.items():
-        for function, rules, slopes in ((row.slope_in, rules_in, slopes_in), (row.slope_out, rules_out, slopes_out)):
-            if function is None:
-                continue
-            here = rules == rule
-            if here.all():
-                slopes[:] = function(around)
-            elif here.any():
-                np.copyto(slopes, function(around), where=here)
-    return slopes_in, slopes_out
+    """(slopes in, slopes out) by rule of neighbouring keys seen as a whole channel; fixed sides keep theirs."""
+    chords = Chords(times, values)
+    found = slopes_in.copy(), slopes_out.copy()
+    for side, (rules, slopes) in enumerate(zip((rules_in, rules_out), found, strict=True)):
+        for rule in np.flatnonzero(np.bincount(rules)).tolist():
+            row = TANGENT_RULES[TangentRule(rule)]
+            function = row.slope_out if side else row.slope_in
+            if function is not None:
+                np.copyto(slopes, function(chords), where=rules == rule)
+    return found
+
+
+def slope_pair(
+    times: Sequence[float],
+    values: Sequence[float],
+    place: int,
+    rule_in: int,
+    rule_out: int,
+    slope_in: float,
+    slope_out: float,
+) -> tuple[float, float]:
+    """(slope in, slope out) of the key at *place* among itself and its one or two neighbours, as slopes_of gives."""
+    before = after = around = 0.0
+    n = len(times)
+    if n == 3:
+        (t0, t, t1), (v0, v, v1) = times, values
+        before, after = slope_between(t0, v0, t, v), slope_between(t, v, t1, v1)
+        around = slope_between(t0, v0, t1, v1)
+    elif n == 2:
+        before = after = around = slope_between(times[0], values[0], times[1], values[1])
+    chords = KeyChords(before, after, around)
+    by_in, by_out = _KEY_SLOPES_IN[rule_in], _KEY_SLOPES_OUT[rule_out]
+    return by_in(chords) if by_in else slope_in, by_out(chords) if by_out else slope_out
