@@ -3,7 +3,6 @@
 # Windows and macOS without make: uv run main.py, uv run pytest
 VENV ?= .venv
 PY   := $(VENV)/bin/python
-FILE ?= resources/samples/bounce.hermite
 export VENV PYTHON UV
 
 .PHONY: run test bench screenshots clean
@@ -11,7 +10,7 @@ export VENV PYTHON UV
 run:
 	@tools/venv.sh run
 	@$(PY) -m app.preflight --install
-	@exec $(PY) main.py "$(FILE)"
+	@exec $(PY) main.py $(if $(FILE),"$(FILE)")
 
 test:
 	@tools/venv.sh dev

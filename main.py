@@ -35,7 +35,7 @@ def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(
         prog="hermite", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    result.add_argument("file", nargs="?", metavar="FILE", help="the clip to open")
+    result.add_argument("file", nargs="?", metavar="FILE", help="the clip to open, a sample if left out")
     result.add_argument("--skel", metavar="FILE", help="a skeleton whose joints name the channels of a course .anim")
     result.add_argument("--check", action="store_true", help="open, draw one picture, tell versions and times, close")
     result.add_argument("--version", action="version", version=f"hermite {__version__}")
@@ -53,6 +53,8 @@ def command_of(words: Sequence[str]) -> bool:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the program: 0 when all went well, 2 after one sentence on stderr when it could not."""
+    # Qt's threads for drawing cost an empty plot 17 to 45 ms a picture instead of 2; read once, when Qt is loaded.
+    os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")
     words = sys.argv[1:] if argv is None else list(argv)
     if command_of(words):
         from app.commands import run
@@ -66,8 +68,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     if problem:
         print(problem, file=sys.stderr)
         return 2
-    # Qt's threads for drawing cost an empty plot 17 to 45 ms a picture instead of 2; read once, when Qt is loaded.
-    os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")
     if options.check:
         from app.check import run_check
 
