@@ -1,7 +1,7 @@
 """Settings: what the program remembers from one run to the next, typed, in one ini file."""
 
 import json
-from typing import Any, Self, cast, overload
+from typing import Any, cast
 
 from PySide6.QtCore import QByteArray, QSettings
 
@@ -14,19 +14,15 @@ class _Remembered[T: (bool, int, str, QByteArray)]:
     """One entry of the file. An ini file holds text only, so every read names the type it wants back."""
 
     def __init__(self, key: str, default: T) -> None:
-        self.key, self.default = key, default
+        self.key = key
+        self.default: T = default
 
-    @overload
-    def __get__(self, settings: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, settings: "Settings", owner: type) -> T: ...
-    def __get__(self, settings: "Settings | None", owner: type) -> Self | T:
-        if settings is None:
-            return self
+    def __get__(self, settings: "Settings", owner: type) -> T:
         try:
-            return cast("T", settings.store.value(self.key, self.default, type(self.default)))
+            value: Any = settings.store.value(self.key, self.default, type(self.default))
         except (TypeError, ValueError):  # a hand-edited file: what cannot be read counts as absent
             return self.default
+        return cast("T", value)
 
     def __set__(self, settings: "Settings", value: T) -> None:
         settings.store.setValue(self.key, value)

@@ -8,7 +8,17 @@ import pytest
 from app.clip_file import changed_since, fingerprint_of, open_clip
 from model.formats import FormatError
 
-CLIP = b"animation {\n range 0 1\n numchannels 1\n channel 0 {\n extrapolate constant constant\n keys 1 {\n 0 1 flat flat\n }\n }\n}\n"
+CLIP = b"""animation {
+  range 0 1
+  numchannels 1
+  channel 0 {
+    extrapolate constant constant
+    keys 1 {
+      0 1 flat flat
+    }
+  }
+}
+"""
 
 
 @pytest.fixture
@@ -47,5 +57,5 @@ def test_opening_tells_format_and_absolute_path(path: Path, monkeypatch: pytest.
 
 
 def test_what_cannot_be_read_is_one_sentence_that_names_the_file(tmp_path: Path) -> None:
-    with pytest.raises(FormatError, match="nothing.anim"):
+    with pytest.raises(FormatError, match=r"nothing\.anim"):
         open_clip(str(tmp_path / "nothing.anim"))

@@ -1,0 +1,65 @@
+"""Actions of the Curve menu: what a curve does before its first and after its last key, keys that keep its shape."""
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from app.actions.channel import channels_in_hand
+from app.actions.popups import pop_up_menu
+from app.actions.row import Action, Need
+from model import edits
+from model.channel import Channel
+from model.extrapolation import EXTRAPOLATIONS, Extrapolation
+from model.labels import channels_text
+
+if TYPE_CHECKING:
+    from app.main_window import MainWindow
+
+CURVES_IN_HAND = Need(lambda w: bool(curves_in_hand(w)), "no channel is active")
+SIDES = {"pre": "Before the First Key", "post": "After the Last Key"}
+
+
+def curves_in_hand(window: "MainWindow") -> list[Channel]:
+    """The channels of the selected keys; without selected keys those chosen in the tree, or the active one."""
+    return list(window.session.selection.channels) or channels_in_hand(window)
+
+
+def _set_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> None:
+    channels = curves_in_hand(window)
+    modes = {side: mode}
+    window.document.do(
+        f"Set {side} of {channels_text(channels)} to {mode.word.replace('_', ' ')}",
+        lambda clip: edits.set_extrapolation(clip, channels, modes.get("pre"), modes.get("post")),
+    )
+
+
+def _has_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> bool:
+    channels = curves_in_hand(window)
+    return bool(channels) and all(getattr(channel, side) is mode for channel in channels)
+
+
+CURVE_ACTIONS = (
+    *(
+        Action(
+            id=f"curve.{side}.{mode.word}",
+            menu=f"Curve/{title}",
+            label=EXTRAPOLATIONS[mode].label,
+            function=partial(_set_extrapolation, side, mode),
+            icon=f"{side}-{mode.word.replace('_', '-')}",
+            tip=EXTRAPOLATIONS[mode].tip,
+            needs=(CURVES_IN_HAND,),
+            checked_when=partial(_has_extrapolation, side, mode),
+        )
+        for side, title in SIDES.items()
+        for mode in Extrapolation
+    ),
+    Action(
+        id="curve.menu",
+        menu="Curve",
+        label="E&xtrapolation Menu",
+        function=lambda w: pop_up_menu(w, "Curve"),
+        shortcuts=("Shift+E",),
+        tip="Show this menu at the mouse",
+        needs=(CURVES_IN_HAND,),
+        begins_group=True,
+    ),
+)

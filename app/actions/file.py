@@ -1,0 +1,89 @@
+"""Actions of the File menu."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtGui import QKeySequence
+
+from app.actions.row import Action, Need
+
+if TYPE_CHECKING:
+    from app.main_window import MainWindow
+
+HAS_A_FILE = Need(lambda w: bool(w.files.path), "the clip has no file yet")
+HAS_CHANGES = Need(lambda w: w.files.modified or not w.files.path, "there is nothing to save")
+DIFFERS_FROM_FILE = Need(lambda w: w.files.modified, "the clip is as it is in its file")
+
+
+def _save(window: "MainWindow") -> None:
+    window.files.save()
+
+
+def _save_as(window: "MainWindow") -> None:
+    window.files.save_as()
+
+
+FILE_ACTIONS = (
+    Action(
+        id="file.new",
+        menu="File",
+        label="&New",
+        function=lambda w: w.files.new(),
+        shortcuts=(QKeySequence.StandardKey.New,),
+        icon="new",
+        tip="Start an empty clip",
+    ),
+    Action(
+        id="file.open",
+        menu="File",
+        label="&Open…",
+        function=lambda w: w.files.ask_and_open(),
+        shortcuts=(QKeySequence.StandardKey.Open,),
+        icon="open",
+        tip="Open a clip; a .skel file opened with it names its channels",
+    ),
+    Action(
+        id="file.name_channels",
+        menu="File",
+        label="Name &Channels from Skeleton…",
+        function=lambda w: w.files.ask_and_name_channels(),
+        tip="Name the channels by the joints of a .skel file",
+        needs=(Need(lambda w: bool(w.document.clip.channels), "the clip has no channels"),),
+    ),
+    Action(
+        id="file.save",
+        menu="File",
+        label="&Save",
+        function=_save,
+        shortcuts=(QKeySequence.StandardKey.Save,),
+        icon="save",
+        tip="Write the clip to its file",
+        needs=(HAS_CHANGES,),
+        begins_group=True,
+    ),
+    Action(
+        id="file.save_as",
+        menu="File",
+        label="Save &As…",
+        function=_save_as,
+        shortcuts=("Ctrl+Shift+S",),
+        icon="save-as",
+        tip="Write the clip to another file or in another format",
+    ),
+    Action(
+        id="file.revert",
+        menu="File",
+        label="&Revert to File…",
+        function=lambda w: w.files.revert(),
+        tip="Read the file again and drop the changes made since",
+        needs=(HAS_A_FILE, DIFFERS_FROM_FILE),
+    ),
+    Action(
+        id="file.quit",
+        menu="File",
+        label="&Quit",
+        function=lambda w: w.close(),
+        shortcuts=("Ctrl+Q",),
+        tip="Close the window; asks when there are unsaved changes",
+        begins_group=True,
+    ),
+)

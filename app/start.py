@@ -1,0 +1,119 @@
+"""The first second of the program: the frame at once, then the clip, then the first picture."""
+
+import signal
+import sys
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QObject, QSocketNotifier, QTimer
+from PySide6.QtWidgets import QApplication, QWidget
+
+from app.main_window import MainWindow, make_application
+from app.settings import Settings
+from widgets.guard import guarded
+from widgets.theme import Theme
+
+type FirstPicture = Callable[[MainWindow], None]
+
+FIRST_SAMPLE = Path(__file__).resolve().parent.parent / "resources" / "samples" / "bounce.hermite"
+
+
+def start(path: str | None, skel: str | None, first_picture: FirstPicture | None) -> int:
+    """Run the program; see app.main_window.run_window."""
+    from app.crash_reports import CrashReports
+
+    app = make_application()
+    reports = CrashReports(parent=app)
+    reports.install()
+    try:
+        settings = Settings()
+        Theme.current().apply(app, settings.appearance)
+        window = MainWindow(settings=settings, frame_only=True)
+        window.show()
+        closer = SignalCloser(window)
+        # Only when the frame is on the screen are numpy, pyqtgraph and the clip loaded: that takes three times as long.
+        QTimer.singleShot(0, window, partial(_fill, window, reports, path, skel, first_picture))
+        code = app.exec()
+        closer.end()
+        return code
+    finally:
+        reports.uninstall()
+
+
+def _fill(
+    window: MainWindow, reports: QObject, path: str | None, skel: str | None, first_picture: FirstPicture | None
+) -> None:
+    from app.clip_file import open_clip
+    from app.crash_reports import CrashReports
+    from model.formats import FormatError
+
+    opened, problem = None, ""
+    try:
+        opened = open_clip(path or str(FIRST_SAMPLE), skel)
+    except FormatError as error:
+        problem = str(error)
+    window.assemble(opened=opened)
+    if isinstance(reports, CrashReports):
+        reports.reported.connect(window.crash_bar.show_report)
+    if problem and first_picture is not None:
+        print(problem, file=sys.stderr)
+        QApplication.exit(2)
+    elif problem:
+        QTimer.singleShot(0, window, partial(window.questions.tell_error, "The clip cannot be opened", problem))
+    elif first_picture is not None:
+        FirstPaint(window.view.viewport(), partial(first_picture, window))
+
+
+class FirstPaint(QObject):
+    """Calls back once, when *widget* has been painted for the first time."""
+
+    def __init__(self, widget: QWidget, call: Callable[[], None]) -> None:
+        super().__init__(widget)
+        self._call = call
+        widget.installEventFilter(self)
+
+    @guarded(False)
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.Paint:
+            watched.removeEventFilter(self)
+            QTimer.singleShot(0, self, self._call)
+        return False
+
+
+class SignalCloser(QObject):
+    """Ctrl+C in the terminal and a polite kill close the window, which asks when something is not saved."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._notifier: QSocketNotifier | None = None
+        if sys.platform == "win32":
+            return
+        import socket
+
+        # Python sees a signal only when it runs; the byte that it writes here wakes Qt, and with it Python.
+        self._read_end, self._write_end = socket.socketpair()
+        self._write_end.setblocking(False)
+        signal.set_wakeup_fd(self._write_end.fileno())
+        self._notifier = QSocketNotifier(self._read_end.fileno(), QSocketNotifier.Type.Read, self)
+        self._notifier.activated.connect(self._wake)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._close)
+
+    def _wake(self) -> None:
+        self._read_end.recv(64)
+
+    def _close(self, _number: int, _frame: object) -> None:
+        QTimer.singleShot(0, self._window, self._window.close)
+
+    def end(self) -> None:
+        """Give the signals back."""
+        if self._notifier is not None:
+            self._notifier.setEnabled(False)
+            signal.set_wakeup_fd(-1)
+            for number in (signal.SIGINT, signal.SIGTERM):
+                signal.signal(number, signal.SIG_DFL)
+            self._read_end.close()
+            self._write_end.close()
+            self._notifier = None

@@ -1,0 +1,77 @@
+"""StatusRow: the bottom line of the window: transport, messages, what is selected, what the mouse does here."""
+
+from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
+
+from widgets.guard import guarded
+
+MESSAGE_MILLISECONDS = 6000
+
+
+class ElidedLabel(QLabel):
+    """One line of plain text that gives up its end, marked by …, when there is no room; the tooltip has all of it."""
+
+    def __init__(self, align: Qt.AlignmentFlag, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setAlignment(align | Qt.AlignmentFlag.AlignVCenter)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+
+    @guarded(QSize(0, 0))
+    def minimumSizeHint(self) -> QSize:
+        return QSize(0, super().minimumSizeHint().height())
+
+    @guarded()
+    def paintEvent(self, event: QPaintEvent) -> None:
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
+        self.setToolTip(self.text() if text != self.text() else "")
+        place, palette = int(self.alignment()), self.palette()
+        with QPainter(self) as painter:
+            self.style().drawItemText(painter, self.rect(), place, palette, True, text, self.foregroundRole())
+
+
+class StatusRow(QWidget):
+    """Left the transport, then a message that goes away by itself, then the selection, right the mouse hints."""
+
+    def __init__(self, transport: QWidget, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft)
+        self.message.setObjectName("message")
+        self.message.setAccessibleName("Message")
+        self.selection = QLabel()
+        self.selection.setObjectName("selection_summary")
+        self.selection.setTextFormat(Qt.TextFormat.PlainText)
+        self.hint = ElidedLabel(Qt.AlignmentFlag.AlignRight)
+        self.hint.setObjectName("mouse_hint")
+        self.hint.setAccessibleName("What the mouse does here")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 0, 6, 0)
+        row.setSpacing(12)
+        row.addWidget(transport)
+        row.addWidget(self.message, 2)
+        row.addWidget(self.selection)
+        row.addWidget(self.hint, 3)
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self.message.clear)
+
+    def say(self, text: str, milliseconds: int = MESSAGE_MILLISECONDS) -> None:
+        """Show *text* for a while; 0 keeps it until the next one."""
+        self.message.setText(text)
+        if milliseconds and text:
+            self._timer.start(milliseconds)
+        else:
+            self._timer.stop()
+
+    def show_tip(self, text: str) -> None:
+        """Show what the menu entry under the mouse does, as long as it is under it."""
+        self.say(text, 0)
+
+    def show_hint(self, text: str) -> None:
+        """Say what the mouse does where it is."""
+        self.hint.setText(text)
+
+    def show_selection(self, text: str) -> None:
+        """Say what is selected."""
+        self.selection.setText(text)

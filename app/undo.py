@@ -1,0 +1,62 @@
+"""UndoStack: what the document committed, as steps that can be taken back."""
+
+from PySide6.QtCore import QObject, QTimer
+from PySide6.QtGui import QUndoCommand, QUndoStack
+
+from model.document import Document, Edit
+from widgets.guard import guarded
+
+
+class EditCommand(QUndoCommand):
+    """One committed edit. The document has already changed when it is pushed, so its first redo does nothing.
+
+    It is never merged and has no children: PySide6 leaks the one and crashes on the other.
+    """
+
+    def __init__(self, stack: "UndoStack", edit: Edit) -> None:
+        super().__init__(edit.label)
+        self._stack = stack
+        self.edit = edit
+        self._already_done = True
+
+    @guarded()
+    def redo(self) -> None:
+        if self._already_done:
+            self._already_done = False
+            return
+        self._stack.apply(self.edit)
+
+    @guarded()
+    def undo(self) -> None:
+        self._stack.apply(self.edit.inverse())
+
+
+class UndoStack(QUndoStack):
+    """The history of one document; its clean index is the state that was last opened or saved."""
+
+    def __init__(self, document: Document, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._document = document
+        document.committed.connect(self._push)
+        document.clip_replaced.connect(self._forget)
+
+    def _push(self, edit: Edit) -> None:
+        self.push(EditCommand(self, edit))
+
+    def _forget(self) -> None:
+        self.clear()
+
+    def apply(self, edit: Edit) -> None:
+        """Bring the document to the other side of *edit*; an open gesture is cancelled first."""
+        try:
+            if self._document.gesture is not None:
+                self._document.gesture.cancel()
+            self._document.apply(edit)
+        except Exception:
+            # The stack moves on whatever happens here, and a history that does not fit the clip can only harm it.
+            QTimer.singleShot(0, self._drop_history)
+            raise
+
+    def _drop_history(self) -> None:
+        self.clear()
+        self.resetClean()

@@ -1,0 +1,87 @@
+"""Watcher: keeps title, actions and the selection's summary true while the document and the session change."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from model.channel import Channel
+from model.labels import counted, keys_text
+from widgets.fitting import MARGINS
+from widgets.soon import Soon
+from widgets.theme import Theme
+from widgets.view_range import fitted
+
+if TYPE_CHECKING:
+    from app.main_window import MainWindow
+
+
+class Watcher(QObject):
+    """Listens for the window; it lives as long as the window does."""
+
+    def __init__(self, window: "MainWindow") -> None:
+        super().__init__(window)
+        self._window = window
+        self._in_gesture = False
+        # While the mouse is at work shortcuts wait anyway, so what a selection box changes is looked at now and then.
+        self._later = Soon(self, self.refresh)
+        self._listen_to_document()
+        self._listen_to_widgets()
+
+    def _listen_to_document(self) -> None:
+        document, session = self._window.document, self._window.session
+        document.gesture_changed.connect(self._gesture_changed)
+        for event in (document.clip_replaced, document.membership_changed):
+            event.connect(self.refresh)
+        for event in (session.selection_changed, session.active_changed, session.visibility_changed):
+            event.connect(self._session_changed)
+        document.setting_changed.connect(self._something_changed)
+        session.option_changed.connect(self._something_changed)
+
+    def _listen_to_widgets(self) -> None:
+        window = self._window
+        window.undo_stack.indexChanged.connect(self._history_moved)
+        window.undo_stack.cleanChanged.connect(self._history_moved)
+        window.files.changed.connect(window.refresh_title)
+        window.view.hint_changed.connect(window.status.show_hint)
+        for panel in (window.tree, window.inspector, window.transport):
+            panel.status.connect(window.say)
+        window.tree.frame_requested.connect(self._frame)
+        Theme.current().theme_changed.connect(window.refresh_actions)
+
+    def refresh(self) -> None:
+        """Look at everything again."""
+        self._window.refresh_actions()
+        self._window.status.show_selection(selection_summary(self._window))
+
+    def _session_changed(self) -> None:
+        if self._window.view.router.busy:
+            self._later.ask()
+        else:
+            self.refresh()
+
+    def _something_changed(self, *_what: object) -> None:
+        self._session_changed()
+
+    def _gesture_changed(self) -> None:
+        in_gesture = self._window.document.gesture is not None
+        if in_gesture != self._in_gesture:  # previews change nothing that an action asks about
+            self._in_gesture = in_gesture
+            self.refresh()
+
+    def _history_moved(self, *_place: object) -> None:
+        self._window.refresh_title()
+        self.refresh()
+
+    def _frame(self, channel: Channel) -> None:
+        """Show all of one channel."""
+        first, last = channel.first, channel.last
+        if first is not None and last is not None:
+            self._window.view.set_view(fitted(first.time, last.time, *channel.extrema(), MARGINS))
+
+
+def selection_summary(window: "MainWindow") -> str:
+    """What is selected; without a selection, how much there is."""
+    selection, clip = window.session.selection, window.document.clip
+    if selection:
+        return f"{keys_text(selection)} selected"
+    return f"{counted(clip.key_count, 'key')} in {counted(len(clip.channels), 'channel')}" if clip.channels else ""

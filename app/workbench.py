@@ -1,0 +1,121 @@
+"""What the window consists of, and who listens to whom."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDockWidget, QUndoView, QVBoxLayout, QWidget
+
+from app.clip_file import Opened
+from app.context_menu import ContextMenu
+from app.corner import FindCommandButton
+from app.crash_bar import CrashBar
+from app.crash_reports import log_path
+from app.file_menus import RecentMenu, SamplesMenu
+from app.files import Files
+from app.menus import make_actions, make_menus, make_toolbar
+from app.questions import Questions
+from app.settings import LAYOUT_VERSION
+from app.shortcut_guard import ShortcutGuard
+from app.status_row import StatusRow
+from app.undo import UndoStack
+from app.watcher import Watcher
+from model.clip import Clip
+from model.document import Document
+from widgets.channel_tree import ChannelTree
+from widgets.curve_view import CurveView
+from widgets.key_inspector import KeyInspector
+from widgets.theme import Theme
+from widgets.transport import Transport
+
+if TYPE_CHECKING:
+    from app.main_window import MainWindow
+
+# The layout before the user moved anything is kept in the window under this name.
+FIRST_LAYOUT_NAME = "first_layout"
+CHANNELS_WIDTH, KEY_WIDTH = 270, 270
+
+
+def assemble(window: "MainWindow", document: Document | None, opened: Opened | None) -> None:
+    """Make everything inside the frame; the clip is *opened*, else the document's own."""
+    if document is None:
+        document = Document(opened.clip if opened else Clip())
+    elif opened is not None:
+        document.replace(opened.clip)
+    window.document, window.session = document, document.session
+    for name in ("snap", "reorder", "loop"):
+        setattr(window.session, name, getattr(window.settings, name))
+    window.questions = Questions(window)
+    window.undo_stack = UndoStack(document, window)
+    window.files = Files(window)
+    _make_parts(window)
+    window.actions_by_id = make_actions(window)
+    window.menus = make_menus(window, {"file.name_channels": RecentMenu(window), "help.about": SamplesMenu(window)})
+    make_toolbar(window)
+    window.menuBar().setCornerWidget(FindCommandButton(window))
+    ContextMenu(window)
+    ShortcutGuard(window)
+    watcher = Watcher(window)
+    if opened is not None:
+        window.files.adopt(opened)
+    _restore_layout(window)
+    watcher.refresh()
+    window.refresh_title()
+    window.view.frame_all()
+    window.view.setFocus()
+
+
+def _make_parts(window: "MainWindow") -> None:
+    document, theme = window.document, Theme.current()
+    window.view = CurveView(document, theme)
+    window.view.setAcceptDrops(False)  # so that the window gets what is dropped on the graph
+    window.view.viewport().setAcceptDrops(False)
+    window.tree = ChannelTree(document, theme)
+    window.inspector = KeyInspector(document, theme)
+    window.transport = Transport(document, theme)
+    window.crash_bar = CrashBar(str(log_path()))
+    window.status = StatusRow(window.transport)
+    middle = QWidget()
+    column = QVBoxLayout(middle)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(0)
+    column.addWidget(window.crash_bar)
+    column.addWidget(window.view, 1)
+    window.setCentralWidget(middle)
+    history = QUndoView(window.undo_stack)
+    history.setEmptyLabel("As opened")
+    left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+    window.docks = {
+        "channels": _dock(window, "channels", "Channels", window.tree, left),
+        "key": _dock(window, "key", "Key", window.inspector, right),
+        "history": _dock(window, "history", "Undo History", history, right),
+    }
+    window.docks["history"].hide()
+    window.resizeDocks(
+        [window.docks["channels"], window.docks["key"]], [CHANNELS_WIDTH, KEY_WIDTH], Qt.Orientation.Horizontal
+    )
+    bar = window.statusBar()
+    bar.setSizeGripEnabled(False)
+    bar.addPermanentWidget(window.status, 1)
+
+
+def _dock(window: "MainWindow", name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+    dock = QDockWidget(title, window)
+    dock.setObjectName(f"dock_{name}")
+    dock.setWidget(widget)
+    window.addDockWidget(area, dock)
+    return dock
+
+
+def _restore_layout(window: "MainWindow") -> None:
+    window.setProperty(FIRST_LAYOUT_NAME, window.saveState(LAYOUT_VERSION))
+    window.restoreState(window.settings.layout, LAYOUT_VERSION)
+
+
+def keep_state(window: "MainWindow") -> None:
+    """Remember what the next start needs."""
+    settings = window.settings
+    settings.geometry = window.saveGeometry()
+    settings.layout = window.saveState(LAYOUT_VERSION)
+    for name in ("snap", "reorder", "loop"):
+        setattr(settings, name, getattr(window.session, name))
+    settings.sync()
