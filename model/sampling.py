@@ -119,9 +119,9 @@ def line_through(spans: Spans, window: Window, tolerance: float = TOLERANCE) -> 
         u1 = np.clip((window.t1 + margin - spans.time0) / length, 0.0, 1.0)
         part = u1 - u0
         bend = np.maximum(np.abs(2 * spans.b + 6 * spans.a * u0), np.abs(2 * spans.b + 6 * spans.a * u1))
-        # A chord of a parabola leaves it by an eighth of the second derivative times its length squared; an extremum
-        # moved into the grid stretches a piece by half.
-        pieces = part * np.sqrt(bend * (window.px_per_value / (8 * tolerance / 2.25)))
+        # A chord of a parabola leaves it by an eighth of the second derivative times its length squared; two points
+        # moved onto extrema may stretch the piece between them to twice its length.
+        pieces = part * np.sqrt(bend * (window.px_per_value / (8 * tolerance / 4)))
         n = np.ceil(np.clip(np.nan_to_num(pieces, nan=MOST_PIECES, posinf=MOST_PIECES), 1, MOST_PIECES)).astype(np.intp)
         ends = np.cumsum(n + 1)
         which = np.repeat(np.arange(count), n + 1)

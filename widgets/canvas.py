@@ -94,22 +94,28 @@ class Canvas(QGraphicsItem):
         window, plot = stage.window, stage.plot()
         if exposed.intersects(plot):
             painter.save()
-            painter.setClipRect(plot, Qt.ClipOperation.IntersectClip)
-            self.backdrop.prepare(stage)
-            self.backdrop.paint(painter, stage)
-            drawn = self.backdrop.contents
-            live = (*[trace for trace in stage.resting if trace.channel not in drawn], *stage.live)
-            x0 = max(floor(exposed.left()) - 1.0, window.left)
-            x1 = min(ceil(exposed.right()) + 1.0, window.right)
-            for layer in LAYERS:
-                if layer.plane is Plane.LIVE:
-                    layer.draw(painter, stage, live, x0, x1)
-            painter.restore()
+            try:
+                painter.setClipRect(plot, Qt.ClipOperation.IntersectClip)
+                self._paint_plot(painter, stage, exposed)
+            finally:
+                painter.restore()
         if exposed.left() < window.left:
             rulers.draw_value_ruler(painter, stage)
         if exposed.top() < window.top:
             rulers.draw_time_ruler(painter, stage)
             rulers.draw_playhead_head(painter, stage)
+
+    def _paint_plot(self, painter: QPainter, stage: Stage, exposed: QRectF) -> None:
+        window = stage.window
+        self.backdrop.prepare(stage)
+        self.backdrop.paint(painter, stage)
+        drawn = self.backdrop.contents
+        live = (*[trace for trace in stage.resting if trace.channel not in drawn], *stage.live)
+        x0 = max(floor(exposed.left()) - 1.0, window.left)
+        x1 = min(ceil(exposed.right()) + 1.0, window.right)
+        for layer in LAYERS:
+            if layer.plane is Plane.LIVE:
+                layer.draw(painter, stage, live, x0, x1)
 
     # --- the stage
 
@@ -237,4 +243,4 @@ class Canvas(QGraphicsItem):
         view = self._view
         for time in (before, self._playhead):
             self.repaint_times(time, time, 2.0)
-            self.repaint(rulers.head_rect(view.window_at(1.0), time))
+            self.repaint(rulers.head_reach(view.window_now, time))

@@ -30,6 +30,17 @@ def all_fitted(document: Document) -> ViewRange:
     return fitted(t0, t1, v0, v1, MARGINS)
 
 
+def fitted_between(document: Document, t0: float, t1: float) -> ViewRange:
+    """Exactly these times, with the shown curves from their lowest to their highest value there."""
+    low, high = inf, -inf
+    for channel in document.session.shown_channels(document.clip):
+        if len(channel):
+            lowest, highest = channel.extrema(t0, t1)
+            low, high = min(low, lowest), max(high, highest)
+    values = fitted(0.0, 1.0, *((low, high) if low <= high else (0.0, 1.0)), MARGINS)
+    return values._replace(t0=t0, t1=t1).limited()
+
+
 def selection_fitted(document: Document) -> ViewRange | None:
     """The selected keys and the curves between them; None if nothing is selected."""
     selection = document.session.selection

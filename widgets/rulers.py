@@ -1,5 +1,6 @@
 """The two rulers: time above the plot, with the playhead's head and the clip's range; value to its left."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -16,8 +17,8 @@ TIME_HEIGHT: Final = 40.0
 BAND_HEIGHT: Final = 5.0
 HEAD_HALF: Final = 6.0
 FRAME_SIZE: Final = 0.78
-# The playhead's head never writes more digits than this; it moves over the ruler's own numbers.
-HEAD_WIDTH: Final = 84.0
+# How far from the playhead its head may reach, or the numbers that make room for it.
+HEAD_REACH: Final = 110.0
 
 
 def draw_value_ruler(painter: QPainter, stage: Stage) -> None:
@@ -80,13 +81,17 @@ def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
 
 
 def _draw_centred(
-    painter: QPainter, stage: Stage, x: list[float], labels: object, size: float, baseline: float
+    painter: QPainter, stage: Stage, x: list[float], labels: Sequence[str], size: float, baseline: float
 ) -> None:
-    """Words centred at x, without those that would be cut at an end."""
+    """Words centred at x, without those that would be cut at an end or by the playhead's head."""
     window, metrics = stage.window, stage.metrics(size)
-    for label, middle in zip(labels, x, strict=True):  # type: ignore[call-overload]
+    head, gap = _head(stage)[0], stage.px(3)
+    row = QRectF(0, baseline - metrics.capHeight(), 1, metrics.capHeight())
+    for label, middle in zip(labels, x, strict=True):
         half = metrics.horizontalAdvance(label) / 2
-        if middle - half >= window.left + 2 and middle + half <= window.right - 2:
+        row.setLeft(middle - half - gap)
+        row.setRight(middle + half + gap)
+        if row.left() >= window.left - 1 and row.right() <= window.right + 1 and not row.intersects(head):
             painter.drawText(QPointF(middle - half, baseline), label)
 
 
@@ -106,37 +111,48 @@ def _draw_band(painter: QPainter, stage: Stage) -> None:
         )
 
 
-def head_rect(window: Window, time: float) -> QRectF:
-    """Where the playhead's head is painted at *time*; empty outside the window."""
+def head_reach(window: Window, time: float) -> QRectF:
+    """What the playhead's head at *time* paints or makes room for; empty outside the window."""
     x = window.x_from_time(time)
     if not window.left - 1 <= x <= window.right + 1:
         return QRectF()
-    half = HEAD_WIDTH / 2 * window.unit
-    return QRectF(x - half, 0, 2 * half, window.top)
+    reach = HEAD_REACH * window.unit
+    return QRectF(x - reach, 0, 2 * reach, window.top)
+
+
+def _head(stage: Stage) -> tuple[QRectF, str]:
+    """The box of the playhead's head and the time in it; empty outside the window."""
+    window, time = stage.window, stage.document.session.playhead
+    x = window.x_from_time(time)
+    if not window.left - 1 <= x <= window.right + 1:
+        return QRectF(), ""
+    major = stage.time_ticks.major
+    step = major[1] - major[0] if len(major) > 1 else 1.0
+    label = plain(time, min(max(3, 2 - int(np.floor(np.log10(step)))), 9))
+    width = stage.metrics(LABEL_SIZE).horizontalAdvance(label) + stage.px(10)
+    left = x - width / 2
+    if window.width > width:
+        left = min(max(left, window.left), window.right - width)
+    return QRectF(round(left), stage.px(1), round(width), stage.px(17)), label
 
 
 def draw_playhead_head(painter: QPainter, stage: Stage) -> None:
     """The head of the playhead in the time ruler, with the time in it."""
     window, theme = stage.window, stage.theme
-    time = stage.document.session.playhead
-    x = window.x_from_time(time)
-    if not window.left - 1 <= x <= window.right + 1:
+    box, label = _head(stage)
+    if box.isEmpty():
         return
-    metrics = stage.metrics(LABEL_SIZE)
-    step = stage.time_ticks.major[1] - stage.time_ticks.major[0] if len(stage.time_ticks.major) > 1 else 1.0
-    label = plain(time, min(max(3, 2 - int(np.floor(np.log10(step)))), 9))
-    width = metrics.horizontalAdvance(label) + stage.px(10)
-    half = width / 2
-    left = min(max(x - half, window.left), window.right - width) if window.width > width else x - half
-    top, low = stage.px(1), stage.px(18)
+    x = int(window.x_from_time(stage.document.session.playhead)) + max(round(stage.px(1)), 1) / 2
     tip = stage.px(HEAD_HALF)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.playhead)
-    painter.drawRoundedRect(QRectF(left, top, width, low - top), stage.px(3), stage.px(3))
+    painter.drawRoundedRect(box, stage.px(3), stage.px(3))
+    low = box.bottom()
     painter.drawPolygon(QPolygonF([QPointF(x - tip, low), QPointF(x + tip, low), QPointF(x, low + tip)]))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-    painter.fillRect(QRectF(np.floor(x), low, max(1.0, stage.px(1)), window.top - low), theme.playhead)
+    width = max(round(stage.px(1)), 1)
+    painter.fillRect(QRectF(x - width / 2, low, width, window.top - low), theme.playhead)
     painter.setFont(stage.font(LABEL_SIZE))
     painter.setPen(theme.playhead_text)
-    painter.drawText(QPointF(left + stage.px(5), stage.px(13.5)), label)
+    painter.drawText(QPointF(box.left() + stage.px(5), stage.px(13)), label)

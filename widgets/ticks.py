@@ -20,7 +20,9 @@ MINUS: Final = "−"
 # Logical pixels; multiples of four stay whole at the device ratios 1.25, 1.5 and 1.75.
 VALUE_WIDTH: Final = 60.0
 LABEL_GAP: Final = 14.0
-VALUES_APART: Final = 34.0
+VALUES_APART: Final = 44.0
+# Finer lines than this would be a fabric, not a grid.
+MINOR_APART: Final = 9.0
 
 
 class Ticks(NamedTuple):
@@ -73,7 +75,7 @@ def value_ticks(
     step = degree_step(least) if degrees else decimal_step(least)
     major = multiples(low, high, step)
     labels, offset = worded(major, step, fits)
-    return Ticks(major, labels, multiples(low, high, step / parts_of(step)), offset)
+    return Ticks(major, labels, finer(low, high, step, length), offset)
 
 
 def time_ticks(low: float, high: float, length: float, gap: float, width: Callable[[str], float]) -> Ticks:
@@ -85,7 +87,7 @@ def time_ticks(low: float, high: float, length: float, gap: float, width: Callab
         labels, offset = worded(major, step, lambda _: True)
         need = max(map(width, labels), default=0.0) + gap
         if need <= step * length / (high - low) or len(major) < 2:
-            return Ticks(major, labels, multiples(low, high, step / parts_of(step)), offset)
+            return Ticks(major, labels, finer(low, high, step, length), offset)
         apart = max(need, apart * 1.25)
 
 
@@ -102,6 +104,12 @@ def multiples(low: float, high: float, step: float) -> Floats:
     """The multiples of *step* from *low* to *high*; never more than 2,000."""
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
     return np.arange(first, min(last, first + 1999) + 1, dtype=np.float64) * step
+
+
+def finer(low: float, high: float, step: float, length: float) -> Floats:
+    """The places between the multiples of *step*, none if they would lie too near."""
+    part = step / parts_of(step)
+    return multiples(low, high, part) if part * length / (high - low) >= MINOR_APART else np.empty(0)
 
 
 def parts_of(step: float) -> int:

@@ -13,9 +13,9 @@ from widgets.theme import Theme
 # With more curves than this, thin hard lines: soft ones cost twice the ink, and nobody sees it in a thicket.
 MOST_SOFT: Final = 48
 LOCKED_DASH: Final = (3.0, 3.0)
-DIMMED: Final = 0.4
-LOCKED_DIMMED: Final = 0.55
-FAINT: Final = 0.45
+DIMMED: Final = 0.28
+LOCKED_DIMMED: Final = 0.5
+FAINT: Final = 0.4
 
 
 class Trace(NamedTuple):
