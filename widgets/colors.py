@@ -16,7 +16,7 @@ PALETTE_ROLES: Final = (
     (R.PlaceholderText, "#9298a3", "#66707d"),
     (R.ToolTipBase, "#3a3d44", "#ffffff"),
     (R.ToolTipText, "#eceef1", "#1d2126"),
-    (R.Button, "#33363c", "#fbfbfc"),
+    (R.Button, "#2f3238", "#fbfbfc"),
     (R.ButtonText, "#e3e5e9", "#1d2126"),
     (R.BrightText, "#ffffff", "#ffffff"),
     (R.Light, "#4b4f57", "#ffffff"),

@@ -52,6 +52,6 @@ def suffix_of(unit: str) -> str:
     return f" {unit}" if unit else ""
 
 
-def stored_from_shown(wanted: Floats, shown_before: Floats, stored_before: Floats, unit: str) -> Floats:
+def stored_from_shown(wanted: Floats, shown_before: Floats, stored_before: Floats, factor: float) -> Floats:
     """Shown numbers in the unit of the file; a number that was not changed keeps its stored bits."""
-    return np.where(wanted == shown_before, stored_before, wanted / factor_of(unit))
+    return np.where(wanted == shown_before, stored_before, wanted / factor)

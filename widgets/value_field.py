@@ -115,7 +115,10 @@ class ValueField(QLineEdit):
         self._steps += steps
         if self._opening_text is None:
             self._opening_text = self.text()
-        if self._preview(f"+= {self._steps * self.target.step():.15g}"):
+        if abs(self._steps) < 1e-9:
+            self._back_to_start()
+            self.setText(self._opening_text)
+        elif self._preview(f"+= {self._steps * self.target.step():.15g}"):
             numbers = self.target.numbers()
             if len(numbers) and (numbers == numbers[0]).all():
                 self.setText(shown(float(numbers[0]), 12))
