@@ -16,7 +16,7 @@ from model.keyframe import KeyGoneError
 from model.sampling import Window
 from widgets.canvas import Canvas
 from widgets.fitting import all_fitted, selection_fitted
-from widgets.graph import Frame, Spot
+from widgets.graph import DrawnHandle, Frame, Spot
 from widgets.guard import guarded
 from widgets.hit_test import Hit
 from widgets.layers.handles import MOST, handles_of, shown_handles
@@ -173,6 +173,18 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         except KeyGoneError:
             return None, None
         return handles.into, handles.out
+
+    def drawn_handles(self) -> list[DrawnHandle]:
+        """The ends of all handles that are drawn."""
+        ratio = float(self.viewport().devicePixelRatioF())
+
+        def logical(spot: Spot | None) -> Spot | None:
+            return None if spot is None else (spot[0] / ratio, spot[1] / ratio)
+
+        return [
+            DrawnHandle(trace.channel, handles.id, logical(handles.into), logical(handles.out))
+            for trace, handles in shown_handles(self.canvas.stage(ratio))
+        ]
 
     # --- the view: it moves only when asked
 

@@ -24,6 +24,15 @@ class Frame(NamedTuple):
     pivot: QPointF | None
 
 
+class DrawnHandle(NamedTuple):
+    """The ends of one key's handles as drawn, in viewport pixels; None for a side without one."""
+
+    channel: Channel
+    id: int
+    into: Spot | None
+    out: Spot | None
+
+
 class Graph(Protocol):
     """The picture of the curves: a map between viewport pixels and (time, value), and what is drawn over it."""
 
@@ -55,6 +64,8 @@ class Graph(Protocol):
     def value_from_y(self, y: float) -> float: ...
     @overload
     def value_from_y(self, y: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+    def drawn_handles(self) -> list[DrawnHandle]: ...
 
     def handle_points(self, channel: Channel, key_id: int) -> tuple[Spot | None, Spot | None]: ...
 

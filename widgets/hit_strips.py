@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.channel import Channel
-from model.keyframe import KEY_DTYPE, Run, TangentRule
+from model.keyframe import TangentRule
 from model.selection import Selection
 from widgets.graph import Graph
+from widgets.lens import Lens
 
 # Strips are as wide as one pass over the channels is worth, and overlap by more than the radius of a hit.
 STRIP = 128
@@ -30,8 +31,10 @@ class _Row:
 
     channel: Channel
     revision: int
-    run: Run
-    outside: tuple[Floats, Floats, Floats, Floats]
+    numbers: Floats  # (4, n): time, value, slope in, slope out
+    ids: Ints
+    held: NDArray[np.bool_]
+    outside: Floats  # (4, m): segments as time0, value0, time1, value1
 
 
 class Near:
@@ -41,7 +44,9 @@ class Near:
         self.owners, self.ids, self.times, self.values, self.distances = owners, ids, times, values, distances
 
 
-NOTHING = Near([], np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0))
+NO_SEGMENTS: Floats = np.empty((4, 0))
+NO_IDS: Ints = np.empty(0, np.int64)
+NOTHING = Near([], NO_IDS, np.empty(0), np.empty(0), np.empty(0))
 
 
 class Strip:
@@ -53,92 +58,77 @@ class Strip:
         self.t0, self.t1 = float(self.columns[0]), float(self.columns[-1])
         self.segment = float(self.columns[1] - self.columns[0])
         self.rows: list[_Row] = []
+        self._channels: list[Channel] = []
+        self._revisions: list[int] = []
         self._merge()
 
     def refresh(self, channels: list[Channel]) -> None:
         """Read again the channels that have changed since, and no others."""
-        rows = self.rows
-        if len(rows) == len(channels) and all(
-            row.channel is channel and row.revision == channel.revision
-            for row, channel in zip(rows, channels, strict=True)
-        ):
+        revisions = [channel.revision for channel in channels]
+        if revisions == self._revisions and channels == self._channels:
             return
-        known = {row.channel: row for row in rows}
+        known = {row.channel: row for row in self.rows}
         self.rows = [
             row if (row := known.get(channel)) and row.revision == channel.revision else self._read(channel)
             for channel in channels
         ]
+        self._channels, self._revisions = channels, revisions
         self._merge()
 
     def _read(self, channel: Channel) -> _Row:
         run = channel.keys_between(self.t0, self.t1, around=1)
-        return _Row(channel, channel.revision, run, self._outside(channel, run))
+        numbers = np.array([run["time"], run["value"], run["slope_in"], run["slope_out"]])
+        held = run["rule_out"] == TangentRule.STEP
+        return _Row(channel, channel.revision, numbers, run["id"].copy(), held, self._outside(channel, numbers[0]))
 
-    def _outside(self, channel: Channel, run: Run) -> tuple[Floats, Floats, Floats, Floats]:
-        """Segments (t0, v0, t1, v1) of the curve before the first and after the last key."""
-        first, last = channel.first, channel.last
-        if first is None or last is None:
-            return (np.empty(0),) * 4
-        times = [column for column in (self._before(first.time), self._after(last.time)) if len(column) > 1]
-        if not times:
-            return (np.empty(0),) * 4
-        values = [channel.evaluate(column) for column in times]
-        return (
-            np.concatenate([column[:-1] for column in times]),
-            np.concatenate([column[:-1] for column in values]),
-            np.concatenate([column[1:] for column in times]),
-            np.concatenate([column[1:] for column in values]),
-        )
-
-    def _before(self, time: float) -> Floats:
-        columns = self.columns[self.columns < time]
-        return np.append(columns, time) if time <= self.t1 else columns
-
-    def _after(self, time: float) -> Floats:
-        columns = self.columns[self.columns > time]
-        return np.insert(columns, 0, time) if time >= self.t0 else columns
+    def _outside(self, channel: Channel, times: Floats) -> Floats:
+        """The curve before the first and after the last key, if *times*, with a key more on each side, end here."""
+        parts = []
+        if len(times) and times[0] > self.t0:
+            parts.append(np.append(self.columns[self.columns < times[0]], min(times[0], self.t1)))
+        if len(times) and times[-1] < self.t1:
+            parts.append(np.insert(self.columns[self.columns > times[-1]], 0, max(times[-1], self.t0)))
+        if not parts:
+            return NO_SEGMENTS
+        values = [channel.evaluate(part) for part in parts]
+        pairs = list(zip(parts, values, strict=True))
+        return np.concatenate([np.array([t[:-1], v[:-1], t[1:], v[1:]]) for t, v in pairs], axis=1)
 
     def _merge(self) -> None:
         rows = self.rows
-        keys = np.concatenate([row.run for row in rows]) if rows else np.empty(0, KEY_DTYPE)
-        owners = np.repeat(np.arange(len(rows)), [len(row.run) for row in rows])
-        self._merge_keys(keys, owners)
-        self._merge_segments(keys, owners)
-
-    def _merge_keys(self, keys: Run, owners: Ints) -> None:
-        times = keys["time"]
-        order = np.argsort(times, kind="stable")
-        self.times, self.values, self.ids = times[order], keys["value"][order], keys["id"][order]
+        numbers = np.concatenate([NO_SEGMENTS, *(row.numbers for row in rows)], axis=1)
+        counts = [len(row.ids) for row in rows]
+        owners = np.repeat(np.arange(len(rows)), counts)
+        order = np.argsort(numbers[0], kind="stable")
+        self.times, self.values = numbers[0][order], numbers[1][order]
+        self.ids = np.concatenate([NO_IDS, *(row.ids for row in rows)])[order]
         self.key_owners = owners[order]
+        held = np.concatenate([NO_IDS.astype(np.bool_), *(row.held for row in rows)])
+        inside, inside_owners = _cut(numbers, held, owners, (self.t0, self.t1), self.segment)
+        outside_owners = np.repeat(np.arange(len(rows)), [row.outside.shape[1] for row in rows])
+        segments = np.concatenate([inside, *(row.outside for row in rows)], axis=1)
+        order = np.argsort(segments[0], kind="stable")
+        self.segments = segments[:, order]
+        self.segment_owners = np.concatenate([inside_owners, outside_owners])[order]
 
-    def _merge_segments(self, keys: Run, owners: Ints) -> None:
-        outside = [row.outside for row in self.rows]
-        parts = [
-            (*_cut(keys, owners, self.t0, self.t1, self.segment),),
-            (
-                *(np.concatenate([part[i] for part in outside]) if outside else np.empty(0) for i in range(4)),
-                np.repeat(np.arange(len(outside)), [len(part[0]) for part in outside]),
-            ),
-        ]
-        time0, value0, time1, value1, segment_owners = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-        order = np.argsort(time0, kind="stable")
-        self.segments = np.stack([time0, value0, time1, value1])[:, order]
-        self.segment_owners = segment_owners[order]
-
-    def keys_near(self, graph: Graph, x: float, y: float, radius: float) -> Near:
+    def keys_near(self, lens: Lens, selection: Selection, x: float, y: float, radius: float) -> Near:
         """Keys within the radius; where there are very many the nearest and the selected ones."""
-        first = int(self.times.searchsorted(graph.time_from_x(x - radius), "left"))
-        last = int(self.times.searchsorted(graph.time_from_x(x + radius), "right"))
+        first = int(self.times.searchsorted(lens.time(x - radius), "left"))
+        last = int(self.times.searchsorted(lens.time(x + radius), "right"))
         if first >= last:
             return NOTHING
-        times, values = self.times[first:last], self.values[first:last]
-        distances = np.hypot(graph.x_from_time(times) - x, graph.y_from_value(values) - y)
-        near = np.flatnonzero(distances <= radius)
+        low, high = sorted((lens.value(y - radius), lens.value(y + radius)))
+        values = self.values[first:last]
+        near = np.flatnonzero((values >= low) & (values <= high)) + first
+        distances = np.hypot(lens.x(self.times[near]) - x, lens.y(self.values[near]) - y)
+        inside = distances <= radius
+        near, distances = near[inside], distances[inside]
         if len(near) > MAX_NEAR:
-            chosen = near[self._selected(graph.document.session.selection, near + first)]
-            near = np.union1d(near[np.argpartition(distances[near], MAX_NEAR)[:MAX_NEAR]], chosen[:MAX_NEAR])
-        owners = [self.rows[owner].channel for owner in self.key_owners[first + near].tolist()]
-        return Near(owners, self.ids[first + near], times[near], values[near], distances[near])
+            kept = np.argpartition(distances, MAX_NEAR)[:MAX_NEAR]
+            kept = np.union1d(kept, np.flatnonzero(self._selected(selection, near))[:MAX_NEAR])
+            near, distances = near[kept], distances[kept]
+        owners = [self.rows[owner].channel for owner in self.key_owners[near].tolist()]
+        return Near(owners, self.ids[near], self.times[near], self.values[near], distances)
 
     def _selected(self, selection: Selection, places: Ints) -> NDArray[np.bool_]:
         chosen = np.zeros(len(places), np.bool_)
@@ -148,54 +138,72 @@ class Strip:
             chosen[mine] = np.isin(ids[mine], selection.ids(self.rows[owner].channel))
         return chosen
 
-    def curves_near(self, graph: Graph, x: float, y: float, radius: float) -> Near:
+    def curves_near(self, lens: Lens, x: float, y: float, radius: float) -> Near:
         """The nearest point of every curve within the radius, by true distance, so that steep spans can be hit too."""
-        first = int(self.segments[0].searchsorted(graph.time_from_x(x - radius) - self.segment, "left"))
-        last = int(self.segments[0].searchsorted(graph.time_from_x(x + radius), "right"))
+        first = int(self.segments[0].searchsorted(lens.time(x - radius) - self.segment, "left"))
+        last = int(self.segments[0].searchsorted(lens.time(x + radius), "right"))
         if first >= last:
             return NOTHING
-        time0, value0, time1, value1 = self.segments[:, first:last]
+        low, high = sorted((lens.value(y - radius), lens.value(y + radius)))
+        value0, value1 = self.segments[1, first:last], self.segments[3, first:last]
+        near = np.flatnonzero((np.maximum(value0, value1) >= low) & (np.minimum(value0, value1) <= high)) + first
+        if not len(near):
+            return NOTHING
+        time0, value0, time1, value1 = self.segments[:, near]
         with np.errstate(all="ignore"):
-            x0, y0 = graph.x_from_time(time0) - x, graph.y_from_value(value0) - y
-            dx, dy = graph.x_from_time(time1) - x - x0, graph.y_from_value(value1) - y - y0
-            along = np.clip(np.nan_to_num(-(x0 * dx + y0 * dy) / (dx * dx + dy * dy)), 0.0, 1.0)
+            x0, y0 = lens.x(time0) - x, lens.y(value0) - y
+            dx, dy = lens.x(time1) - x - x0, lens.y(value1) - y - y0
+            along = -(x0 * dx + y0 * dy) / (dx * dx + dy * dy)
+            along = np.where(along > 0.0, np.minimum(along, 1.0), 0.0)  # where there is no way along, its start counts
             distances = np.hypot(x0 + along * dx, y0 + along * dy)
-        near = np.flatnonzero(distances <= radius)
-        near = near[np.argsort(distances[near], kind="stable")]
-        _, nearest = np.unique(self.segment_owners[first + near], return_index=True)
-        near = near[nearest]
-        times = time0[near] + along[near] * (time1[near] - time0[near])
-        values = value0[near] + along[near] * (value1[near] - value0[near])
-        owners = [self.rows[owner].channel for owner in self.segment_owners[first + near].tolist()]
-        return Near(owners, np.zeros(len(near), np.int64), times, values, distances[near])
+        inside = np.flatnonzero(distances <= radius)
+        inside = inside[np.argsort(distances[inside], kind="stable")]
+        _, nearest = np.unique(self.segment_owners[near[inside]], return_index=True)
+        best = inside[np.sort(nearest)[:MAX_NEAR]]
+        owners = [self.rows[owner].channel for owner in self.segment_owners[near[best]].tolist()]
+        times = time0[best] + along[best] * (time1[best] - time0[best])
+        values = value0[best] + along[best] * (value1[best] - value0[best])
+        return Near(owners, np.zeros(len(best), np.int64), times, values, distances[best])
 
 
-def _cut(keys: Run, owners: Ints, t0: float, t1: float, segment: float) -> tuple[Floats, Floats, Floats, Floats, Ints]:
-    """Segments (t0, v0, t1, v1, owner) of the spans between neighbouring keys of one owner, within [t0, t1]."""
+def _cut(
+    numbers: Floats, held: NDArray[np.bool_], owners: Ints, times: tuple[float, float], segment: float
+) -> tuple[Floats, Ints]:
+    """(4, m) segments of the spans between neighbouring keys of one owner, and their owners.
+
+    Spans shorter than a *segment* (seconds) are one; of longer ones only what lies within *times* is cut up.
+    """
     spans = np.flatnonzero(owners[1:] == owners[:-1])
-    key0, key1, owners = keys[spans], keys[spans + 1], owners[spans]
-    start, d_time = key0["time"], key1["time"] - key0["time"]
-    low, high = np.maximum(start, t0), np.minimum(key1["time"], t1)
-    counts = np.ceil(np.maximum(high - low, 0.0) / segment).astype(np.int64)
-    which = np.repeat(np.arange(len(spans)), counts)
-    step = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
-    width = ((high - low) / np.maximum(counts, 1))[which]
-    time0 = low[which] + step * width
-    time1 = np.where(step + 1 == counts[which], high[which], time0 + width)
-    p0, p1 = key0["value"], key1["value"]
-    held = key0["rule_out"] == TangentRule.STEP
+    time0, value0, _, slope0 = numbers[:, spans]
+    time1, value1, slope1, _ = numbers[:, spans + 1]
+    held, owners = held[spans], owners[spans]
+    low, high = np.maximum(time0, times[0]), np.minimum(time1, times[1])
+    counts = np.ceil((high - low) / segment)
+    short = (time1 - time0 <= segment) & ~held
+    long = np.flatnonzero(~short & (counts > 0))
+    which, step, width = _steps(long, low, high, counts)
+    start = low[which] + step * width
+    end = np.where(step + 1 == counts[which], high[which], start + width)
+    d_time, d_value = time1[which] - time0[which], value1[which] - value0[which]
     with np.errstate(all="ignore"):
-        m0, m1 = d_time * key0["slope_out"], d_time * key1["slope_in"]
-        a = np.where(held, 0.0, 2 * p0 - 2 * p1 + m0 + m1)[which]
-        b = np.where(held, 0.0, -3 * p0 + 3 * p1 - 2 * m0 - m1)[which]
-        c = np.where(held, 0.0, m0)[which]
-        u0, u1 = ((time - start[which]) / d_time[which] for time in (time0, time1))
-        value0, value1 = (p0[which] + u * (c + u * (b + u * a)) for u in (u0, u1))
-    riser = key1["time"][held]  # a held span ends in a jump, drawn upright
-    return (
-        np.concatenate([time0, riser]),
-        np.concatenate([value0, p0[held]]),
-        np.concatenate([time1, riser]),
-        np.concatenate([value1, p1[held]]),
-        np.concatenate([owners[which], owners[held]]),
+        m0, m1 = np.where(held[which], 0.0, slope0[which] * d_time), np.where(held[which], 0.0, slope1[which] * d_time)
+        rise = np.where(held[which], 0.0, d_value)
+        u0, u1 = (start - time0[which]) / d_time, (end - time0[which]) / d_time
+        from_value, to_value = (
+            value0[which] + u * (m0 + u * (3 * rise - 2 * m0 - m1 + u * (m0 + m1 - 2 * rise))) for u in (u0, u1)
+        )
+    jump = np.flatnonzero(held)  # a held span ends in a jump, drawn upright
+    segments = (
+        np.array([time0[short], value0[short], time1[short], value1[short]]),
+        np.array([start, from_value, end, to_value]),
+        np.array([time1[jump], value0[jump], time1[jump], value1[jump]]),
     )
+    return np.concatenate(segments, axis=1), np.concatenate([owners[short], owners[which], owners[jump]])
+
+
+def _steps(spans: Ints, low: Floats, high: Floats, counts: Floats) -> tuple[Ints, Floats, Floats]:
+    """For each piece of *spans*, cut into *counts* pieces: its span, its number there and its width."""
+    pieces = counts[spans].astype(np.int64)
+    which = np.repeat(spans, pieces)
+    step = np.arange(len(which)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    return which, step.astype(np.float64), (high[which] - low[which]) / counts[which]

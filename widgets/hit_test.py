@@ -1,5 +1,6 @@
 """What lies under the pointer: keys, handles and curves within a few pixels, the nearest first."""
 
+from collections.abc import Iterator
 from enum import Enum, auto
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
@@ -10,12 +11,11 @@ from numpy.typing import NDArray
 from model.channel import Channel
 from widgets.graph import Graph
 from widgets.hit_strips import STRIP, Near, Strip
+from widgets.lens import Lens
 
 RADIUS = 8.0
 # How much nearer an unselected thing must be than a selected one to be preferred, pixels.
 PREFERENCE = 4.0
-# Above this no view draws a handle for every selected key, and nobody could aim at one.
-MAX_HANDLE_KEYS = 400
 
 type Floats = NDArray[np.float64]
 
@@ -84,20 +84,28 @@ def hit_ruler(graph: Graph, x: float, y: float, radius: float = RADIUS) -> Hit:
 
 
 def hit_all(graph: Graph, x: float, y: float, radius: float = RADIUS) -> list[Hit]:
-    """Everything within *radius* pixels: keys, then handles, then curves; selected, then nearest first."""
-    test = _TESTS.get(graph)
-    if test is None:
-        test = _TESTS[graph] = HitTest()
-    return test.hit_all(graph, x, y, radius)
+    """Everything within *radius* pixels: keys, handles, curves, then what is locked; the nearest of each first."""
+    found = [hit for kind in _test_of(graph).by_kind(graph, x, y, radius) for hit in kind]
+    return sorted(found, key=_is_locked)
 
 
 def hit(graph: Graph, x: float, y: float, cycle: int = 0, radius: float = RADIUS) -> Hit:
-    """What a press at a pixel of the plot meets; *cycle* steps through what overlaps of the same kind."""
-    found = hit_all(graph, x, y, radius)
-    if not found:
-        return Hit("empty", time=graph.time_from_x(x), value=graph.value_from_y(y))
-    same = [other for other in found if other.kind == found[0].kind]
-    return same[cycle % len(same)]
+    """What a press at a pixel of the plot meets; *cycle* steps through what overlaps of the same kind.
+
+    What is locked covers nothing that can be taken.
+    """
+    locked: list[Hit] = []
+    for kind in _test_of(graph).by_kind(graph, x, y, radius):
+        free = [found for found in kind if not _is_locked(found)]
+        if free:
+            return free[cycle % len(free)]
+        locked += kind
+    return locked[0] if locked else Hit("empty", time=graph.time_from_x(x), value=graph.value_from_y(y))
+
+
+type Owner = tuple[str, Channel, int]  # "handle_in" or "handle_out" of a key
+
+NO_HANDLES: tuple[Floats, list[Owner]] = (np.empty((0, 2)), [])
 
 
 class HitTest:
@@ -107,38 +115,39 @@ class HitTest:
         self._axis: tuple[float, ...] = ()
         self._strips: dict[int, Strip] = {}
         self._handle_stamp: tuple[object, ...] = ()
-        self._handles: tuple[Floats, list[tuple[str, Channel, int]]] = (np.empty((0, 2)), [])
+        self._handles = NO_HANDLES
 
-    def hit_all(self, graph: Graph, x: float, y: float, radius: float) -> list[Hit]:
-        """See hit_all() of the module."""
+    def by_kind(self, graph: Graph, x: float, y: float, radius: float) -> Iterator[list[Hit]]:
+        """Keys, handles and curves within the radius, worked out as they are asked for."""
         session = graph.document.session
         channels = session.shown_channels(graph.document.clip)
         if not channels:
-            return []
-        strip = self._strip(graph, channels, x)
-        keys = _hits("key", strip.keys_near(graph, x, y, radius))
-        curves = _hits("curve", strip.curves_near(graph, x, y, radius))
+            return
+        lens = Lens(graph)
+        strip = self._strip(graph, lens, channels, x)
         chosen, active = session.selection, session.active
-        keys.sort(key=lambda hit: (_preferred(hit, chosen.contains(_channel(hit), hit.id)), hit.distance))
-        curves.sort(key=lambda hit: _preferred(hit, hit.channel is active))
-        found = [*keys, *self._handles_near(graph, channels, x, y, radius), *curves]
-        return sorted(found, key=lambda hit: _channel(hit).locked)  # what cannot be grabbed covers nothing that can
+        keys = _hits("key", strip.keys_near(lens, chosen, x, y, radius))
+        yield sorted(keys, key=lambda hit: (_preferred(hit, chosen.contains(_channel(hit), hit.id)), hit.distance))
+        yield self._handles_near(graph, lens, channels, x, y, radius)
+        curves = _hits("curve", strip.curves_near(lens, x, y, radius))
+        yield sorted(curves, key=lambda hit: _preferred(hit, hit.channel is active))
 
-    def _strip(self, graph: Graph, channels: list[Channel], x: float) -> Strip:
-        left, right = graph.plot_rect.left(), graph.plot_rect.right()
-        axis = (left, right, graph.time_from_x(left), graph.time_from_x(right))
+    def _strip(self, graph: Graph, lens: Lens, channels: list[Channel], x: float) -> Strip:
+        axis = (lens.left, lens.right, lens.t0, lens.t1)
         if axis != self._axis:
             self._strips.clear()
             self._axis = axis
-        index = int((x - left) // STRIP)
+        index = int((x - lens.left) // STRIP)
         strip = self._strips.get(index)
         if strip is None:
             strip = self._strips[index] = Strip(graph, index)
         strip.refresh(channels)
         return strip
 
-    def _handles_near(self, graph: Graph, channels: list[Channel], x: float, y: float, radius: float) -> list[Hit]:
-        spots, owners = self._handle_spots(graph, channels)
+    def _handles_near(
+        self, graph: Graph, lens: Lens, channels: list[Channel], x: float, y: float, radius: float
+    ) -> list[Hit]:
+        spots, owners = self._handle_spots(graph, lens, channels)
         if not owners:
             return []
         distances = np.hypot(spots[:, 0] - x, spots[:, 1] - y)
@@ -146,46 +155,28 @@ class HitTest:
         hits = []
         for i in near[np.argsort(distances[near], kind="stable")].tolist():
             kind, channel, key_id = owners[i]
-            time, value = graph.time_from_x(float(spots[i, 0])), graph.value_from_y(float(spots[i, 1]))
+            time, value = lens.time(float(spots[i, 0])), lens.value(float(spots[i, 1]))
             hits.append(Hit(kind, channel, key_id, time, value, float(distances[i])))
         return hits
 
-    def _handle_spots(self, graph: Graph, channels: list[Channel]) -> tuple[Floats, list[tuple[str, Channel, int]]]:
-        """The drawn ends of the tangents of the selected keys in view."""
-        session, plot = graph.document.session, graph.plot_rect
-        chosen = [channel for channel in channels if len(session.selection.ids(channel))]
-        values = (plot.top(), plot.bottom(), graph.value_from_y(plot.top()), graph.value_from_y(plot.bottom()))
-        stamp = (self._axis, values, session.selection, [(channel, channel.revision) for channel in chosen])
-        if stamp == self._handle_stamp:
-            return self._handles
-        spots: list[tuple[float, float]] = []
-        owners: list[tuple[str, Channel, int]] = []
-        for channel, key_id in _selected_in_view(graph, chosen):
-            ends = graph.handle_points(channel, key_id)
-            for kind, end in zip(("handle_in", "handle_out"), ends, strict=True):
-                if end is not None:
-                    spots.append(end)
-                    owners.append((kind, channel, key_id))
-        self._handle_stamp, self._handles = stamp, (np.array(spots).reshape(-1, 2), owners)
+    def _handle_spots(self, graph: Graph, lens: Lens, channels: list[Channel]) -> tuple[Floats, list[Owner]]:
+        """The ends of the tangents as the view draws them."""
+        selection = graph.document.session.selection
+        if not selection:
+            return NO_HANDLES
+        chosen = [channel for channel in channels if len(selection.ids(channel))]
+        window = (*self._axis, lens.top, lens.bottom, lens.v0, lens.v1)
+        stamp = (window, selection, chosen, [(channel.revision, channel.locked) for channel in chosen])
+        if stamp != self._handle_stamp:
+            ends = [
+                (end, (kind, drawn.channel, drawn.id))
+                for drawn in graph.drawn_handles()
+                for kind, end in (("handle_in", drawn.into), ("handle_out", drawn.out))
+                if end is not None
+            ]
+            spots = np.array([end for end, _ in ends]).reshape(-1, 2)
+            self._handle_stamp, self._handles = stamp, (spots, [owner for _, owner in ends])
         return self._handles
-
-
-def _selected_in_view(graph: Graph, channels: list[Channel]) -> list[tuple[Channel, int]]:
-    """Selected keys between the edges of the view; none if they are too many to have handles."""
-    plot, selection = graph.plot_rect, graph.document.session.selection
-    t0, t1 = graph.time_from_x(plot.left()), graph.time_from_x(plot.right())
-    keys: list[tuple[Channel, int]] = []
-    for channel in channels:
-        chosen = selection.ids(channel)
-        if len(chosen) <= MAX_HANDLE_KEYS:
-            run = channel.keys_of([key_id for key_id in chosen.tolist() if key_id in channel])
-            inside = run["id"][(run["time"] >= t0) & (run["time"] <= t1)]
-        else:
-            inside = np.intersect1d(channel.keys_between(t0, t1)["id"], chosen)
-        if len(keys) + len(inside) > MAX_HANDLE_KEYS:
-            return []
-        keys += [(channel, key_id) for key_id in inside.tolist()]
-    return keys
 
 
 def _hits(kind: str, near: Near) -> list[Hit]:
@@ -198,8 +189,19 @@ def _channel(hit: Hit) -> Channel:
     return hit.channel
 
 
+def _is_locked(hit: Hit) -> bool:
+    return hit.channel is not None and hit.channel.locked
+
+
 def _preferred(hit: Hit, chosen: bool) -> float:
     return hit.distance + (0.0 if chosen else PREFERENCE)
+
+
+def _test_of(graph: Graph) -> HitTest:
+    test = _TESTS.get(graph)
+    if test is None:
+        test = _TESTS[graph] = HitTest()
+    return test
 
 
 _TESTS: WeakKeyDictionary[Graph, HitTest] = WeakKeyDictionary()

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 from model.channel import Channel
 from model.document import Document
 from model.event import Event
-from widgets.graph import Frame
+from widgets.graph import DrawnHandle, Frame
 from widgets.hit_test import Hit
 
 HANDLE = 60.0
@@ -50,6 +50,10 @@ class FakeGraph:
             length = (dx * dx + dy * dy) ** 0.5
             ends.append((x + sign * HANDLE * dx / length, y + sign * HANDLE * dy / length))
         return ends[0], ends[1]
+
+    def drawn_handles(self) -> list[DrawnHandle]:
+        keys = self.document.session.selection.keys()
+        return [DrawnHandle(channel, key_id, *self.handle_points(channel, key_id)) for channel, key_id in keys]
 
     def pan_pixels(self, dx: float, dy: float) -> None:
         t0, t1, v0, v1 = self.range

@@ -28,6 +28,7 @@ class Handles(NamedTuple):
     into: Spot | None
     out: Spot | None
     broken: bool
+    id: int
 
 
 def handles_of(key: Keyframe, window: Window) -> Handles:
@@ -45,7 +46,7 @@ def handles_of(key: Keyframe, window: Window) -> Handles:
     if has_out:
         dx, dy = _arm(key.slope_out, window)
         out = (x + dx, y + dy)
-    return Handles((x, y), into, out, key.broken)
+    return Handles((x, y), into, out, key.broken, key.id)
 
 
 def _arm(slope: float, window: Window) -> tuple[float, float]:
