@@ -69,6 +69,7 @@ class Channel:
         self._rows = Rows()
         self._ends: Ends | None = None
         self._table: Table | None = None
+        self._extremes: envelope.Extremes | None = None
         self._hit = NOWHERE
         self._kept_spans: dict[int, Span] = {}
         self._row_times: dict[int, Sequence[float]] = {}
@@ -396,7 +397,9 @@ class Channel:
         array = np.asarray(edges, np.float64)
         if len(self) == 0:
             return np.zeros(len(array) - 1), np.zeros(len(array) - 1)
-        return envelope.envelope(self._rows, self._the_ends(), array, self.pre, self.post)
+        if self._extremes is None or self._extremes.numbers is not self._rows.numbers:
+            self._extremes = envelope.Extremes(self._rows)
+        return envelope.envelope(self._rows, self._extremes, self._the_ends(), array, self.pre, self.post)
 
     def check(self) -> None:
         """Assert everything that must hold of the list, its rows, slopes and coefficients."""

@@ -1,31 +1,243 @@
-"""The exact range of a curve in each column of a picture."""
+"""The exact range of a curve in each column of a picture, whatever the number of keys.
+
+Inside a span the curve turns at most twice. Each span keeps the lowest and highest of its first key and these turns, each
+block of spans the lowest and highest of its spans. A column is then its two edges, the turns of the two spans that
+its edges cut, and the spans and blocks between.
+"""
+
+from typing import NamedTuple
 
 import numpy as np
 
 from model import evaluation, hermite
-from model.extrapolation import Ends, Extrapolation
-from model.hermite import Floats
-from model.rows import D_TIME, TIME, VALUE, A, B, C, Rows
+from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation, periods
+from model.hermite import LARGEST, Floats
+from model.keyframe import TangentRule
+from model.rows import AT_A_TIME, D_TIME, RULE_OUT, VALUE, A, B, C, Rows, Slots
+
+BLOCK = 32
+
+type Range = tuple[Floats, Floats]
 
 
-def envelope(rows: Rows, ends: Ends, edges: Floats, pre: Extrapolation, post: Extrapolation) -> tuple[Floats, Floats]:
+class Extremes:
+    """The lowest and highest values of all spans and blocks of one channel's rows, worked out when asked for."""
+
+    def __init__(self, rows: Rows) -> None:
+        self.numbers = rows.numbers
+        self.block = min(BLOCK, rows.width)
+        self.low, self.high = np.empty(len(rows.ids)), np.empty(len(rows.ids))
+        self.block_low, self.block_high = np.empty((2, len(rows.ids) // self.block))
+        rows.dirty = set(range(rows.rows))
+
+    def refresh(self, rows: Rows, slot0: int, slot1: int) -> None:
+        """Work out anew the rows from slot0 to slot1 that have changed."""
+        row0, row1 = slot0 // rows.width, slot1 // rows.width + 1
+        stale = sorted(rows.dirty.intersection(range(row0, row1)) if len(rows.dirty) > 1 else rows.dirty)
+        for row, end in _neighbouring(stale):
+            part = slice(row * rows.width, end * rows.width)
+            self.low[part], self.high[part] = _span_ranges(rows, part)
+            blocks = slice(part.start // self.block, part.stop // self.block)
+            self.block_low[blocks] = self.low[part].reshape(-1, self.block).min(axis=1)
+            self.block_high[blocks] = self.high[part].reshape(-1, self.block).max(axis=1)
+        rows.dirty.difference_update(stale)
+
+    def between(self, starts: Slots, ends: Slots) -> Range:
+        """The ranges over the slots from each of *starts* up to before each of *ends*; (inf, -inf) if there are none."""
+        size = self.block
+        first, last = -(-starts // size), ends // size
+        low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
+        whole = np.flatnonzero(first < last)
+        if len(whole):
+            cuts = np.stack([first[whole], last[whole]], axis=1).reshape(-1)
+            low[whole] = np.minimum.reduceat(self.block_low, cuts)[::2]
+            high[whole] = np.maximum.reduceat(self.block_high, cuts)[::2]
+        # What is left at both ends is shorter than a block.
+        step = np.arange(size)
+        for begin, end in ((starts, np.minimum(ends, first * size)), (np.maximum(starts, last * size), ends)):
+            some = np.flatnonzero(begin < end)
+            if len(some):
+                slots = begin[some, None] + step
+                inside = slots < end[some, None]
+                slots = np.where(inside, slots, begin[some, None])
+                low[some] = np.minimum(low[some], self.low[slots].min(axis=1))
+                high[some] = np.maximum(high[some], self.high[slots].max(axis=1))
+        return low, high
+
+
+def _neighbouring(rows: list[int]) -> list[tuple[int, int]]:
+    """Sorted row numbers as (first, end) of neighbours, at most AT_A_TIME in a group."""
+    groups: list[tuple[int, int]] = []
+    for row in rows:
+        if groups and groups[-1][1] == row and row - groups[-1][0] < AT_A_TIME:
+            groups[-1] = (groups[-1][0], row + 1)
+        else:
+            groups.append((row, row + 1))
+    return groups
+
+
+def _span_ranges(rows: Rows, part: slice) -> Range:
+    """The ranges over the first keys and the turns of the spans in these slots."""
+    a, b, c, d = (rows.numbers[column, part] for column in (A, B, C, VALUE))
+    low, high = d.copy(), d.copy()
+    with np.errstate(all="ignore"):
+        bend = b + 3.0 * a
+        # Without a change of sign from slope to slope, or from bend to bend, the curve does not turn.
+        turning = ~(c * (c + b + bend) > 0.0) | ((b < 0.0) != (bend < 0.0))
+        turning &= (a != 0.0) | (b != 0.0)
+    some = np.flatnonzero(turning)
+    if len(some):
+        for value in _turns(rows, some + part.start)[1]:
+            low[some] = np.fmin(low[some], value)
+            high[some] = np.fmax(high[some], value)
+    return low, high
+
+
+def _turns(rows: Rows, slots: Slots) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
+    """((u, u), (value, value)) where the spans of these slots turn; NaN where they do not."""
+    a, b, c, d = (rows.numbers[column][slots] for column in (A, B, C, VALUE))
+    wild = ~np.isfinite(a + b + c)
+    with np.errstate(all="ignore"):
+        u0, u1 = hermite.extremum_places(a, b, c)
+        value0, value1 = hermite.value(u0, a, b, c, d), hermite.value(u1, a, b, c, d)
+        wild |= np.isinf(value0) | np.isinf(value1)
+    if wild.any():
+        spans, _ = evaluation.scaled_spans(rows, rows.real(slots[wild]))
+        u0[wild], u1[wild] = hermite.extremum_places(spans.a, spans.b, spans.c)
+        value0[wild], value1[wild] = spans.value(u0[wild]), spans.value(u1[wild])
+    return (u0, u1), (value0, value1)
+
+
+class Points(NamedTuple):
+    """Places on the curve where columns begin or end."""
+
+    next_slot: Slots  # the slot behind those of the key at or before
+    slot: Slots  # of the key at or before
+    u: Floats
+    value: Floats
+    key_value: Floats
+    turns: tuple[Floats, Floats]  # u where the span turns
+    turn_values: tuple[Floats, Floats]
+
+
+def _points(rows: Rows, times: Floats) -> Points:
+    slots = np.maximum(rows.times.searchsorted(times, "right") - 1, 0)
+    real = rows.real(slots)
+    turns, turn_values = _turns(rows, real)
+    with np.errstate(all="ignore"):
+        u = (times - rows.times[real]) / rows.numbers[D_TIME][real]
+    wild = np.flatnonzero(~np.isfinite(u))
+    if len(wild):
+        time1 = evaluation.scaled_spans(rows, real[wild])[1]
+        u[wild] = hermite.places(times[wild], rows.times[real[wild]], time1)
+    values = evaluation.inside(rows, times, None)
+    return Points(slots + 1, real, u, values, rows.numbers[VALUE][real], turns, turn_values)
+
+
+def _ranges(rows: Rows, extremes: Extremes, points: Points, begins: slice, ends: slice) -> Range:
+    """The ranges from the points *begins* to the points *ends*, pair by pair."""
+    slot0, slot1 = points.slot[begins], points.slot[ends]
+    low = np.minimum(points.value[begins], points.value[ends])
+    high = np.maximum(points.value[begins], points.value[ends])
+    one_span = slot0 == slot1
+    for turn in (0, 1):
+        for side in (begins, ends):
+            u, value = points.turns[turn][side], points.turn_values[turn][side]
+            # A turn counts if it lies behind the beginning (of the same span) and before the end (of the same span).
+            seen = (u > points.u[begins]) if side is begins else (u < points.u[ends]) & ~one_span
+            if side is begins:
+                seen &= ~one_span | (u < points.u[ends])
+            low = np.where(seen, np.fmin(low, value), low)
+            high = np.where(seen, np.fmax(high, value), high)
+    key = points.key_value[ends]
+    low, high = np.where(one_span, low, np.minimum(low, key)), np.where(one_span, high, np.maximum(high, key))
+    if len(slot0):
+        extremes.refresh(rows, int(slot0.min()), int(slot1.max()))
+        within = extremes.between(points.next_slot[begins], np.where(one_span, points.next_slot[begins], slot1))
+        low, high = np.minimum(low, within[0]), np.maximum(high, within[1])
+    return low, high
+
+
+def between(rows: Rows, extremes: Extremes, times0: Floats, times1: Floats) -> Range:
+    """The ranges over [times0[j], times1[j]], all of them from the first to the last key."""
+    n = len(times0)
+    points = _points(rows, np.concatenate([times0, times1]))
+    return _ranges(rows, extremes, points, slice(0, n), slice(n, 2 * n))
+
+
+def envelope(
+    rows: Rows, extremes: Extremes, ends: Ends, edges: Floats, pre: Extrapolation, post: Extrapolation
+) -> Range:
     """(lowest, highest) of the curve in each [edges[j], edges[j + 1]]."""
-    values = evaluation.evaluated(rows, ends, edges, pre, post, None)
-    low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
-    n = rows.numbers[:, rows.slots(np.arange(rows.size))]
-    u0, u1 = hermite.extremum_places(n[A], n[B], n[C])
-    times, heights = [n[TIME]], [n[VALUE]]
-    for u in (u0, u1):
-        there = np.flatnonzero(~np.isnan(u))
-        times.append((n[TIME] + u * n[D_TIME])[there])
-        heights.append(hermite.value(u, n[A], n[B], n[C], n[VALUE])[there])
-    held = np.flatnonzero((n[A] == 0.0) & (n[B] == 0.0) & (n[C] == 0.0))[:-1]
-    times.append(np.nextafter(n[TIME][held + 1], -np.inf))
-    heights.append(n[VALUE][held])
-    time, height = np.concatenate(times), np.concatenate(heights)
-    column = edges.searchsorted(time, "right") - 1
-    for side in (column, edges.searchsorted(time, "left") - 1):
-        seen = (side >= 0) & (side < len(low))
-        np.minimum.at(low, side[seen], height[seen])
-        np.maximum.at(high, side[seen], height[seen])
+    if len(edges) < 2:
+        return np.empty(0), np.empty(0)
+    if edges[0] >= ends.time0 and edges[-1] <= ends.time1:
+        return _ranges(rows, extremes, _points(rows, edges), slice(0, -1), slice(1, None))
+    low, high = np.full(len(edges) - 1, np.inf), np.full(len(edges) - 1, -np.inf)
+    left, right = edges[:-1], edges[1:]
+    some = (right >= ends.time0) & (left <= ends.time1)
+    if some.any():
+        begins, stops = np.maximum(left[some], ends.time0), np.minimum(right[some], ends.time1)
+        low[some], high[some] = between(rows, extremes, begins, stops)
+    for some, mode, begins, stops in (
+        (left < ends.time0, pre, left, np.minimum(right, ends.time0)),
+        (right > ends.time1, post, np.maximum(left, ends.time1), right),
+    ):
+        if some.any():
+            found = _outside(rows, extremes, ends, mode, begins[some], stops[some])
+            low[some], high[some] = np.minimum(low[some], found[0]), np.maximum(high[some], found[1])
+    return low, high
+
+
+def _outside(rows: Rows, extremes: Extremes, ends: Ends, mode: Extrapolation, times0: Floats, times1: Floats) -> Range:
+    """The ranges over [times0[j], times1[j]], all on one side of the keys."""
+    row = EXTRAPOLATIONS[mode]
+    if not row.repeats or ends.period == 0.0:
+        # Straight lines: their ends are enough.
+        pair = [evaluation.evaluated(rows, ends, times, mode, mode, None) for times in (times0, times1)]
+        return np.minimum(*pair), np.maximum(*pair)
+    copies0, rests0 = periods(times0, ends)
+    copies1, rests1 = periods(times1, ends)
+    inside_one = copies0 == copies1
+    low, high = np.full(len(times0), np.inf), np.full(len(times0), -np.inf)
+    n = len(times0)
+    everything = np.arange(n)
+    # From the beginning to its copy's end (or to the end itself), and from the last copy's beginning to the end.
+    pieces = [
+        (everything, copies0, rests0, np.where(inside_one, rests1, np.inf)),
+        (np.flatnonzero(~inside_one), copies1[~inside_one], np.zeros(int((~inside_one).sum())), rests1[~inside_one]),
+    ]
+    # Whole copies between: the first and the last of them, since what a copy is shifted by grows from one to the next.
+    whole = np.flatnonzero(copies1 - copies0 > 1.5)
+    for copies in (copies0[whole] + 1.0, copies1[whole] - 1.0):
+        pieces.append((whole, copies, np.zeros(len(whole)), np.full(len(whole), np.inf)))
+    for place, copies, begins, stops in pieces:
+        if len(place):
+            found = _in_copies(rows, extremes, ends, mode, copies, begins, stops)
+            low[place], high[place] = np.minimum(low[place], found[0]), np.maximum(high[place], found[1])
+    return low, high
+
+
+def _in_copies(
+    rows: Rows, extremes: Extremes, ends: Ends, mode: Extrapolation, copies: Floats, begins: Floats, stops: Floats
+) -> Range:
+    """The ranges from *begins* to *stops* seconds after the beginning of each copy; inf is the copy's end."""
+    to_end = np.isinf(stops)
+    if mode is Extrapolation.BOUNCE:
+        mirrored = np.fmod(copies, 2.0) != 0.0
+        times0 = np.where(mirrored, np.where(to_end, ends.time0, ends.time1 - stops), ends.time0 + begins)
+        times1 = np.where(mirrored, ends.time1 - begins, np.where(to_end, ends.time1, ends.time0 + stops))
+    else:
+        # The value of the last key shows at the very end of the keys only, unless the curve leads up to it.
+        end = ends.time1
+        if rows.size > 1 and rows.marks[RULE_OUT, rows.slot(rows.size - 2)] == TangentRule.STEP:
+            end = float(np.nextafter(end, -np.inf))
+        times0 = np.minimum(ends.time0 + begins, end)
+        times1 = np.where(to_end, end, np.minimum(ends.time0 + stops, end))
+    times0, times1 = np.clip(times0, ends.time0, ends.time1), np.clip(times1, ends.time0, ends.time1)
+    low, high = between(rows, extremes, np.minimum(times0, times1), times1)
+    if mode is Extrapolation.CYCLE_OFFSET:
+        with np.errstate(all="ignore"):
+            shifts = copies * min(max(ends.value1 - ends.value0, -LARGEST), LARGEST)
+            low, high = hermite.finite(low + shifts), hermite.finite(high + shifts)
     return low, high

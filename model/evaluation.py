@@ -118,19 +118,22 @@ def _mend(rows: Rows, slots: Slots | int, times: Floats, values: Floats) -> None
 def careful(rows: Rows, slots: Slots, times: Floats) -> Floats:
     """The values at *times*, in the spans that the keys of *slots* start, whose numbers are too large for doubles."""
     n = rows.numbers
+    spans, time1 = scaled_spans(rows, slots)
+    found = spans.value(hermite.places(times, n[TIME][slots], time1))
+    at_key = times == n[TIME][slots]
+    return np.where(np.isnan(times), np.nan, np.where(at_key, n[VALUE][slots], found))
+
+
+def scaled_spans(rows: Rows, slots: Slots) -> tuple[hermite.Scaled, Floats]:
+    """(the spans that the keys of *slots* start in numbers of size one, the times at which they end)."""
+    n = rows.numbers
     ranks = rows.ranks(slots)
     following = rows.slots(np.minimum(ranks + 1, rows.size - 1))
-    found = hermite.careful_value(
-        times,
-        n[TIME][slots],
-        n[TIME][following],
-        n[VALUE][slots],
-        n[VALUE][following],
-        n[SLOPE_OUT][slots],
-        n[SLOPE_IN][following],
-    )
     held = (rows.marks[RULE_OUT][slots] == TangentRule.STEP) | (ranks == rows.size - 1)
-    return np.where(np.isnan(times), np.nan, np.where(held | (times == n[TIME][slots]), n[VALUE][slots], found))
+    value0, time1 = n[VALUE][slots], np.where(ranks == rows.size - 1, n[TIME][slots] + 1.0, n[TIME][following])
+    value1 = np.where(held, value0, n[VALUE][following])
+    slope0, slope1 = np.where(held, 0.0, n[SLOPE_OUT][slots]), np.where(held, 0.0, n[SLOPE_IN][following])
+    return hermite.scaled(n[TIME][slots], time1, value0, value1, slope0, slope1), time1
 
 
 def slopes(rows: Rows, ends: Ends, times: Floats, pre: Extrapolation, post: Extrapolation, *, after: bool) -> Floats:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from enum import IntEnum
+from math import inf, nextafter
 from typing import NamedTuple
 
 import numpy as np
@@ -47,6 +48,11 @@ class Ends(NamedTuple):
     def period(self) -> float:
         """Seconds from the first to the last key."""
         return min(self.time1 - self.time0, LARGEST)
+
+    @property
+    def before_end(self) -> float:
+        """The last time before the last key: a copy ends before the next one's beginning, however times are rounded."""
+        return nextafter(self.time1, -inf)
 
 
 class Folded(NamedTuple):
@@ -107,13 +113,13 @@ def _cycle(times: Floats, ends: Ends) -> Folded:
     if ends.period == 0.0:
         return _constant(times, ends)
     _, rest = periods(times, ends)
-    return Folded(np.clip(ends.time0 + rest, ends.time0, ends.time1), None, np.ones_like(times))
+    return Folded(np.clip(ends.time0 + rest, ends.time0, ends.before_end), None, np.ones_like(times))
 
 
 def _cycle_one(time: float, ends: Ends) -> tuple[float, float]:
     if ends.period == 0.0:
         return ends.time0, 0.0
-    return min(max(ends.time0 + periods_one(time, ends)[1], ends.time0), ends.time1), 0.0
+    return min(max(ends.time0 + periods_one(time, ends)[1], ends.time0), ends.before_end), 0.0
 
 
 def _cycle_offset(times: Floats, ends: Ends) -> Folded:
@@ -122,7 +128,7 @@ def _cycle_offset(times: Floats, ends: Ends) -> Folded:
     k, rest = periods(times, ends)
     with np.errstate(all="ignore"):
         shifts = k * min(max(ends.value1 - ends.value0, -LARGEST), LARGEST)
-    return Folded(np.clip(ends.time0 + rest, ends.time0, ends.time1), shifts, np.ones_like(times))
+    return Folded(np.clip(ends.time0 + rest, ends.time0, ends.before_end), shifts, np.ones_like(times))
 
 
 def _cycle_offset_one(time: float, ends: Ends) -> tuple[float, float]:
@@ -130,7 +136,7 @@ def _cycle_offset_one(time: float, ends: Ends) -> tuple[float, float]:
         return ends.time0, 0.0
     k, rest = periods_one(time, ends)
     shift = k * min(max(ends.value1 - ends.value0, -LARGEST), LARGEST)
-    return min(max(ends.time0 + rest, ends.time0), ends.time1), shift
+    return min(max(ends.time0 + rest, ends.time0), ends.before_end), shift
 
 
 def _bounce(times: Floats, ends: Ends) -> Folded:

@@ -42,37 +42,46 @@ def slope[Number: (float, Floats)](u: Number, a: Number, b: Number, c: Number, d
     return (c + u * (2.0 * b + u * (3.0 * a))) / d_time
 
 
-def careful_value(
-    time: Floats, time0: Floats, time1: Floats, value0: Floats, value1: Floats, slope0: Floats, slope1: Floats
-) -> Floats:
-    """The span's value at *time* however large its numbers are; what no double can hold becomes +-LARGEST.
+class Scaled(NamedTuple):
+    """A span in numbers of size one: its true a, b, c and d are these times 2 to the power of `exponent`."""
 
-    Every number is split into mantissa and exponent, and the polynomial is worked out on numbers of size one.
-    """
+    a: Floats
+    b: Floats
+    c: Floats
+    d: Floats
+    exponent: NDArray[np.int64]
+
+    def value(self, u: Floats) -> Floats:
+        """The span's value at u; what no double can hold becomes +-LARGEST."""
+        with np.errstate(all="ignore"):
+            return finite(np.ldexp(value(u, self.a, self.b, self.c, self.d), self.exponent))
+
+
+def scaled(time0: Floats, time1: Floats, value0: Floats, value1: Floats, slope0: Floats, slope1: Floats) -> Scaled:
+    """The spans between keys whose numbers may be so large or so far apart that their coefficients overflow."""
     with np.errstate(all="ignore"):
-        d_time = 0.25 * time1 - 0.25 * time0
-        u = np.minimum((0.25 * time - 0.25 * time0) / d_time, 1.0)
-        # The quarter of a denormal number loses bits, the difference of small numbers does not overflow.
-        small = np.maximum(np.abs(time0), np.abs(time1)) < 1e300
-        u = np.where(small, (time - time0) / (time1 - time0), u)
-        mantissa, exponent = np.frexp(np.where(small, time1 - time0, d_time))
-        exponent = exponent + np.where(small, 0, 2)
-        m0, e0 = np.frexp(slope0)
-        m1, e1 = np.frexp(slope1)
-        p0, f0 = np.frexp(value0)
-        p1, f1 = np.frexp(value1)
-        # Zeros have exponent 0 in frexp; they must not set the scale.
-        exponents = [
-            np.where(m == 0.0, -5000, e)
-            for m, e in ((m0 * mantissa, e0 + exponent), (m1 * mantissa, e1 + exponent), (p0, f0), (p1, f1))
-        ]
+        far = ~np.isfinite(time1 - time0)
+        d_time, d_exponent = np.frexp(np.where(far, 0.5 * time1 - 0.5 * time0, time1 - time0))
+        d_exponent = d_exponent + far
+        mantissas, exponents = [], []
+        for numbers, is_slope in ((slope0, True), (slope1, True), (value0, False), (value1, False)):
+            mantissa, exponent = np.frexp(numbers)
+            mantissas.append(mantissa * d_time if is_slope else mantissa)
+            # A zero must not set the scale.
+            exponents.append(np.where(mantissa == 0.0, -9999, exponent + d_exponent if is_slope else exponent))
         scale = np.maximum.reduce(exponents)
         s0, s1, v0, v1 = (
-            np.ldexp(m, np.maximum(e - scale, -2000))
-            for m, e in zip((m0 * mantissa, m1 * mantissa, p0, p1), exponents, strict=True)
+            np.ldexp(mantissa, np.maximum(exponent - scale, -2000))
+            for mantissa, exponent in zip(mantissas, exponents, strict=True)
         )
-        a, b, c = coefficients(np.ones_like(u), v0, v1, s0, s1)
-        return finite(np.ldexp(value(u, a, b, c, v0), scale))
+        return Scaled(*coefficients(np.ones_like(s0), v0, v1, s0, s1), v0, scale)
+
+
+def places(times: Floats, time0: Floats, time1: Floats) -> Floats:
+    """u of *times* in spans however long."""
+    with np.errstate(all="ignore"):
+        u = (times - time0) / (time1 - time0)
+        return np.where(np.isfinite(time1 - time0), u, (0.5 * times - 0.5 * time0) / (0.5 * time1 - 0.5 * time0))
 
 
 def finite(numbers: Floats) -> Floats:
