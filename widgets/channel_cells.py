@@ -1,9 +1,10 @@
 """ChannelCells: how one cell of the channel tree is painted."""
 
-from typing import Final
+from collections.abc import Sequence
+from typing import Final, NamedTuple
 
 from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QPoint, QRect, QSize, Qt
-from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from model.channel import Channel
@@ -24,6 +25,14 @@ FAINT: Final = 0.84
 FAINT_UNDER_MOUSE: Final = 0.45
 
 
+class SeenValue(NamedTuple):
+    """One value on the screen: where, what it reads, whether its row is chosen."""
+
+    rect: QRect
+    text: str
+    chosen: bool
+
+
 class ChannelCells(QStyledItemDelegate):
     """Swatch and name, live value, and icons; nothing is a widget, so thousands of rows cost as much as those seen."""
 
@@ -33,6 +42,10 @@ class ChannelCells(QStyledItemDelegate):
         self._theme = theme
         self._rows = rows
         self._pens: dict[Channel, QPen] = {}
+        self._font: QFont | None = None
+        self._number_font = QFont()
+        self._metrics = QFontMetrics(self._number_font)
+        self._widths: dict[str, int] = {}
         self.dirty = QRect()  # what the paint event under way is about; cells outside are left alone
 
     def forget_colors(self) -> None:
@@ -47,23 +60,52 @@ class ChannelCells(QStyledItemDelegate):
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
         if not option.rect.intersects(self.dirty):
             return
-        self._paint_background(painter, option)
         painter.save()
+        chosen = bool(option.state & QStyle.StateFlag.State_Selected)
+        painter.fillRect(option.rect, self._ground(option.palette, chosen=chosen))
         column = Column(index.column())
         if column == Column.NAME:
             self._paint_name(painter, option, index)
         elif column == Column.VALUE:
-            self._paint_value(painter, option, index)
+            channel = self._rows.channel_of(index)
+            if channel is not None:
+                self._begin_values(painter, option.font)
+                self._paint_value(painter, option.rect, self._rows.value_text(channel))
         else:
             self._paint_toggle(painter, option, index, column)
-        painter.restore()
-
-    def _paint_background(self, painter: QPainter, option: QStyleOptionViewItem) -> None:
-        widget = option.widget
-        widget.style().drawPrimitive(QStyle.PrimitiveElement.PE_PanelItemViewItem, option, painter, widget)
-        if option.state & QStyle.StateFlag.State_HasFocus and option.state & QStyle.StateFlag.State_KeyboardFocusChange:
+        focus = QStyle.StateFlag.State_HasFocus
+        if option.state & focus and option.state & QStyle.StateFlag.State_KeyboardFocusChange:
             painter.setPen(self._theme.pen(self._theme.accent))
             painter.drawRect(option.rect.adjusted(0, 0, -1, -1))
+        painter.restore()
+
+    def paint_values(self, painter: QPainter, palette: QPalette, font: QFont, values: Sequence[SeenValue]) -> None:
+        """Paint these values and their ground, without asking the view for anything."""
+        self._begin_values(painter, font)
+        for value in values:
+            painter.fillRect(value.rect, self._ground(palette, chosen=value.chosen))
+            self._paint_value(painter, value.rect, value.text)
+
+    def _begin_values(self, painter: QPainter, font: QFont) -> None:
+        if font != self._font:
+            self._font = QFont(font)
+            self._number_font = self._theme.number_font(font)
+            self._metrics = QFontMetrics(self._number_font)
+            self._widths = {}
+        painter.setFont(self._number_font)
+        painter.setPen(self._theme.text_dim)
+
+    def _paint_value(self, painter: QPainter, rect: QRect, text: str) -> None:
+        widths = self._widths
+        for letter in text:
+            if letter not in widths:
+                widths[letter] = self._metrics.horizontalAdvance(letter)
+        left = rect.right() - GAP - sum([widths[letter] for letter in text])
+        base = rect.top() + (rect.height() + self._metrics.ascent() - self._metrics.descent()) // 2
+        painter.drawText(left, base, text)
+
+    def _ground(self, palette: QPalette, *, chosen: bool) -> QColor:
+        return palette.color(QPalette.ColorRole.Highlight if chosen else QPalette.ColorRole.Base)
 
     def _paint_name(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
         channel = self._rows.channel_of(index)
@@ -86,15 +128,6 @@ class ChannelCells(QStyledItemDelegate):
         # The end of a long name tells more than its beginning.
         text = QFontMetrics(font).elidedText(text, Qt.TextElideMode.ElideLeft, rect.width())
         painter.drawText(rect, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
-
-    def _paint_value(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
-        channel = self._rows.channel_of(index)
-        if channel is None:
-            return
-        painter.setFont(self._theme.number_font(option.font))
-        painter.setPen(self._theme.text_dim)
-        flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
-        painter.drawText(option.rect.adjusted(0, 0, -GAP, 0), flags, self._rows.value_text(channel))
 
     def _paint_toggle(self, painter: QPainter, option: QStyleOptionViewItem, index: Index, column: Column) -> None:
         toggle = TOGGLES[column]

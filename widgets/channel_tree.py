@@ -128,8 +128,10 @@ class ChannelTree(QWidget):
         self._follows = True
         view.cells.forget_colors()
         view.rows.show(words)
-        for row, group in enumerate(view.rows.groups):
-            view.setExpanded(view.rows.index(row, 0), bool(words) or group.name not in folded)
+        view.expandAll()
+        for row, group in enumerate(view.rows.groups if not words and folded else ()):
+            if group.name in folded:
+                view.collapse(view.rows.index(row, 0))
         view.choose(chosen)
         self._follows = False
         self._show_active()

@@ -2,13 +2,13 @@
 
 from typing import Final, NamedTuple
 
-from PySide6.QtCore import QEvent, QItemSelectionModel, QModelIndex, QRect, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPalette
+from PySide6.QtCore import QEvent, QItemSelectionModel, QModelIndex, QPoint, QRect, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPalette, QRegion, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeView, QWidget
 
 from model.channel import Channel
 from model.document import Document, Gesture
-from widgets.channel_cells import ChannelCells
+from widgets.channel_cells import ChannelCells, SeenValue
 from widgets.channel_rows import TOGGLES, ChannelRows, Column
 from widgets.channel_verbs import lock_label, set_shown, set_solo, settings
 from widgets.colors import mix
@@ -68,7 +68,12 @@ class ChannelView(QTreeView):
         self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.setMouseTracking(True)
         self.setHeaderHidden(True)
+        self._places: list[tuple[Channel, QRect]] | None = None  # of the values on the screen, once worked out
+        self._seen: dict[Channel, str] = {}
         self._lay_out_columns()
+        self.verticalScrollBar().valueChanged.connect(self._forget_places)
+        for change in (self.expanded, self.collapsed, self.rows.modelReset, self.header().geometriesChanged):
+            change.connect(self._forget_places)
         self.recolor()
 
     def _lay_out_columns(self) -> None:
@@ -93,9 +98,47 @@ class ChannelView(QTreeView):
         self.viewport().update()
 
     def update_values(self) -> None:
-        """Paint the values again, and nothing else."""
-        left = self.columnViewportPosition(Column.VALUE)
-        self.viewport().update(QRect(left, 0, self.columnWidth(Column.VALUE), self.viewport().height()))
+        """Paint again the values that read differently now, and nothing else."""
+        if self._places is None:
+            self._places = self._value_places()
+        seen = self._seen
+        region = QRegion()
+        for channel, rect in self._places:
+            text = self.rows.value_text(channel)
+            if seen.get(channel) != text:
+                seen[channel] = text
+                region += rect
+        if not region.isEmpty():
+            self.viewport().update(region)
+
+    def _value_places(self) -> list[tuple[Channel, QRect]]:
+        """The channels on the screen and where their values are."""
+        places = []
+        bottom = self.viewport().height()
+        index = self.indexAt(QPoint(1, 0))
+        while index.isValid():
+            rect = self.visualRect(index.siblingAtColumn(Column.VALUE))
+            if rect.top() > bottom:
+                break
+            channel = self.rows.channel_of(index)
+            if channel is not None:
+                places.append((channel, rect))
+            index = self.indexBelow(index)
+        return places
+
+    def _forget_places(self, *_: object) -> None:
+        self._places = None
+        self._seen.clear()
+
+    def _paint_values(self, region: QRegion) -> None:
+        chosen = {self.rows.channel_of(row) for row in self.selectionModel().selectedRows()}
+        values = [
+            SeenValue(rect, self._seen.get(channel) or self.rows.value_text(channel), channel in chosen)
+            for channel, rect in self._places or ()
+            if region.intersects(rect)
+        ]
+        with QPainter(self.viewport()) as painter:
+            self.cells.paint_values(painter, self.palette(), self.font(), values)
 
     def chosen(self) -> list[Channel]:
         """The channels of the chosen rows, groups opened up, in the clip's order."""
@@ -192,6 +235,11 @@ class ChannelView(QTreeView):
         if channel is not None and event.button() == Qt.MouseButton.LeftButton:
             self.framed.emit(channel)
 
+    @guarded()
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._forget_places()
+        super().resizeEvent(event)
+
     @guarded(False)
     def event(self, event: QEvent) -> bool:
         if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
@@ -227,7 +275,13 @@ class ChannelView(QTreeView):
 
     @guarded()
     def paintEvent(self, event: QPaintEvent) -> None:
-        self.cells.dirty = event.region().boundingRect()
+        dirty = event.region().boundingRect()
+        left = self.columnViewportPosition(Column.VALUE)
+        if self._places and left <= dirty.left() and dirty.right() < left + self.columnWidth(Column.VALUE):
+            self._paint_values(event.region())
+            return
+        self.cells.dirty = dirty
+        self._seen.clear()
         super().paintEvent(event)
         if not self.rows.groups and self.empty_text:
             with QPainter(self.viewport()) as painter:

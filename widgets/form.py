@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QSize
 from widgets.guard import guarded
 from widgets.theme import Theme
 
-
 WIDEST_LABEL: Final = "Slope out "  # so that the fields of all sections begin at one line
 
 

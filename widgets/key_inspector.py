@@ -29,7 +29,7 @@ class KeyInspector(QScrollArea):
         self.key.status.connect(self.status)
         self.channel.status.connect(self.status)
         self._keys_soon = Soon(self, self._refresh_keys)
-        self._channel_soon = Soon(self, self.channel.refresh)
+        self._channel_soon = Soon(self, self.channel.refresh, least_pause=0.1)
         self._lay_out()
         self._listen()
 

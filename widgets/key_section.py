@@ -15,7 +15,7 @@ from model.labels import keys_text
 from model.tangents import TANGENT_RULES
 from widgets.form import DimLabel, Heading, QuietCombo, form_grid
 from widgets.key_targets import KeyTarget, SelectedKeys
-from widgets.numbers import suffix_of
+from widgets.numbers import frame_text, suffix_of
 from widgets.scrub_label import ScrubLabel
 from widgets.theme import Theme
 from widgets.value_field import MIXED, ValueField
@@ -26,6 +26,7 @@ NUMBERS: Final = (
     ("slope_in", "Slope in", "Slope of the tangent before the key, value per second; typing one fixes it"),
     ("slope_out", "Slope out", "Slope of the tangent after the key, value per second; typing one fixes it"),
 )
+WIDEST_UNIT: Final = "s  f 1234"  # so that the fields keep their width
 SIDES: Final = (("in", "Rule in"), ("out", "Rule out"))
 
 
@@ -45,6 +46,7 @@ class KeySection(QWidget):
         self._units: dict[str, DimLabel] = {}
         body = QWidget(self)
         self._grid = form_grid(body)
+        self._grid.setColumnMinimumWidth(2, self.fontMetrics().horizontalAdvance(WIDEST_UNIT))
         for name, label, tip in NUMBERS:
             self._add_number(name, label, tip)
         for side, label in SIDES:
@@ -80,8 +82,9 @@ class KeySection(QWidget):
             return ""
         if name == "time":
             times = self._keys.numbers("time")
-            time = None if not len(times) or times[0] != times[-1] else float(times[0])
-            return "s" if time is None else f"s  frame {self._document.clip.frame_of(time):.7g}"
+            if not len(times) or (times != times[0]).any():
+                return "s"
+            return f"s  f {frame_text(self._document.clip.frame_of(float(times[0])))}"
         unit = suffix_of(self._keys.unit()).strip()
         return unit if name == "value" else f"{unit}/s"
 

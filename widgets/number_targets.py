@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from model.clip import Clip
 from model.document import Document, Gesture, Setting
 from model.expressions import Formula
-from widgets.numbers import shown
+from widgets.numbers import frame_text, shown
 
 type Floats = NDArray[np.float64]
 
@@ -78,10 +78,7 @@ class PlayheadTarget:
         return np.array([self._document.clip.frame_of(time) if self._in_frames else time])
 
     def text(self, number: float) -> str:
-        if not self._in_frames:
-            return f"{number:.3f}"
-        whole = round(number)
-        return str(whole) if abs(number - whole) < 5e-4 else f"{number:.2f}"
+        return frame_text(number) if self._in_frames else f"{number:.3f}"
 
     def step(self) -> float:
         return 1.0 if self._in_frames else 1.0 / self._document.clip.frame_rate

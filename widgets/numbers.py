@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 type Floats = NDArray[np.float64]
 
 DEGREES: Final = 180.0 / math.pi
-MINUS: Final = "−"
 
 
 def shown(number: float, digits: int = 6) -> str:
@@ -28,6 +27,12 @@ def steady(number: float) -> str:
         return f"{number:.2e}"
     text = f"{number:.3f}"
     return "0.000" if text == "-0.000" else text
+
+
+def frame_text(frame: float) -> str:
+    """A frame, with two decimals only where it is not whole."""
+    whole = round(frame)
+    return str(whole) if abs(frame - whole) < 5e-4 else f"{frame:.2f}"
 
 
 def exact(number: float) -> str:
