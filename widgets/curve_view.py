@@ -96,6 +96,11 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
             self.canvas.forget()
         return self._routed(event) or bool(super().event(event))
 
+    @guarded(False)
+    def close(self) -> bool:
+        """Close as any widget does; pyqtgraph would clear the scene first and leave a view without its canvas."""
+        return QGraphicsView.close(self)
+
     def _routed(self, event: QEvent) -> bool:
         return hasattr(self, "router") and self.router.handle(event)
 
