@@ -15,6 +15,7 @@ MOST_CHARACTERS = 64 * 1024 * 1024
 LONGEST_LINE = 8192
 _FIELDS = "channel, time, value, slope in, slope out, rule in, rule out, unified or broken"
 _NUMBER_CHARACTERS = frozenset("0123456789+-.eE")
+_RULES = {rule.word: int(rule) for rule in TangentRule}
 _ESCAPES = {"\\": "\\\\", "\t": "\\t", "\n": "\\n", "\r": "\\r"}
 
 
@@ -53,19 +54,15 @@ def keys_from_text(text: str) -> CopiedKeys:
     """The keys in *text*; ValueError, with the line, if it is no text of ours, damaged, or of too many keys."""
     if not text.startswith(HEADER):
         raise ValueError("the clipboard holds no keys")
-    if len(text) > MOST_CHARACTERS or text.count("\n") > 2 * MOST_KEYS:
+    if len(text) > MOST_CHARACTERS or text.count("\n") > MOST_KEYS + 1:
         raise ValueError(f"the clipboard holds too much: at most {MOST_KEYS:,} keys can be pasted")
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[0].rstrip() != HEADER:
         raise ValueError("the clipboard holds keys of another version of Hermite")
     rows: dict[str, list[tuple[float | int | bool, ...]]] = {}
-    count = 0
     for number, line in enumerate(lines[1:], start=2):
-        if not line.strip():
+        if not line or line.isspace():
             continue
-        count += 1
-        if count > MOST_KEYS:
-            raise ValueError(f"the clipboard holds too much: at most {MOST_KEYS:,} keys can be pasted")
         try:
             name, row = _row_from_line(line)
         except ValueError as error:
@@ -80,13 +77,19 @@ def _row_from_line(line: str) -> tuple[str, tuple[float | int | bool, ...]]:
     fields = line.split("\t") if len(line) <= LONGEST_LINE else []
     if len(fields) != 8:
         raise ValueError(f"expected {_FIELDS}, parted by tabs")
-    rule_in, rule_out = TangentRule.from_word(fields[5]), TangentRule.from_word(fields[6])
+    rule_in, rule_out = _rule(fields[5]), _rule(fields[6])
     if rule_in == TangentRule.STEP:
         raise ValueError("step is a rule of the side out")
     if fields[7] not in ("unified", "broken"):
         raise ValueError(f"expected unified or broken, found {fields[7][:20]!r}")
     numbers = (_number(field) for field in fields[1:5])
-    return _unescaped(fields[0]), (*numbers, int(rule_in), int(rule_out), fields[7] == "broken")
+    name = _unescaped(fields[0]) if "\\" in fields[0] else fields[0]
+    return name, (*numbers, rule_in, rule_out, fields[7] == "broken")
+
+
+def _rule(word: str) -> int:
+    rule = _RULES.get(word)
+    return int(TangentRule.from_word(word)) if rule is None else rule
 
 
 def _number(field: str) -> float:

@@ -1,5 +1,7 @@
 """Placing: how keys are taken out of a channel and put in at other times, by splices of as few keys as it takes."""
 
+from math import ulp
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,15 +10,15 @@ from model.channel import Channel
 from model.hermite import LARGEST, Floats
 from model.keyframe import KEY_DTYPE, Run
 
-# Places with no more keys than this between them share one splice.
-FEW = 64
-# A splice costs about as much as some hundred keys, so a scattered selection is cut into no more parts than this.
+# A splice costs about as much as some hundred keys in it, so places with no more keys than this between them share one;
+# what an undo step of one key holds stays below 64 KiB.
+FEW = 512
 MOST_SPLICES = 64
 
 NO_KEYS: Run = np.empty(0, KEY_DTYPE)
 NO_KEYS.flags.writeable = False
 
-_SIGN = np.int64(2**63 - 1)
+_MAGNITUDE = np.int64(2**63 - 1)
 
 
 def placed(channel: Channel, removed: Run, rows: Run, *, slack: float = 0.0) -> list[Splice]:
@@ -25,11 +27,12 @@ def placed(channel: Channel, removed: Run, rows: Run, *, slack: float = 0.0) -> 
     A row at the time of another key covers it: that key is left out. A row no more than *slack* seconds away from
     another key takes over its time first, since only rounding has kept them apart.
     """
-    if len(removed) == len(channel):
-        return [Splice(channel, removed, rows)] if len(rows) or len(removed) else []
-    places = np.sort(np.concatenate([removed["time"], rows["time"]]))
-    if not len(places):
+    ends = [float(run["time"][end]) for run in (removed, rows) if len(run) for end in (0, -1)]
+    if not ends:
         return []
+    if channel.count_between(min(ends) - slack, max(ends) + slack) == len(removed):
+        return [Splice(channel, removed, rows)]  # nothing else lies between their old and new places
+    places = np.sort(np.concatenate([removed["time"], rows["time"]]))
     parts = _in_possible_order(_clusters(channel, places, slack), removed, rows)
     splices = (_splice(channel, t0, t1, removed, rows, slack) for t0, t1 in parts)
     return [splice for splice in splices if len(splice.before) or len(splice.after)]
@@ -83,7 +86,7 @@ def _clusters(channel: Channel, places: Floats, slack: float) -> list[tuple[floa
     They are more than twice *slack* apart, so that no key falls to two of them.
     """
     first, last = float(places[0]), float(places[-1])
-    if len(places) == 1 or channel.count_between(first, last) <= 4 * len(places) + FEW:
+    if len(places) == 1 or channel.count_between(first, last) <= 16 * len(places) + FEW:
         return [(first, last)]
     gaps = places[1:] - places[:-1]
     wide = np.arange(len(gaps))
@@ -111,19 +114,20 @@ def _in_possible_order(parts: list[tuple[float, float]], removed: Run, rows: Run
 
 def strictly_increasing(times: Floats) -> Floats:
     """*times*, which never fall, with equal ones moved to the next numbers that a double can hold."""
-    if (times[1:] > times[:-1]).all():
+    if len(times) == 1 or (times[1:] > times[:-1]).all():
         return times
-    # The bits of doubles, with the order of the negative ones turned round, are integers in the order of the doubles.
-    bits = (times + 0.0).view(np.int64)
+    # The bits of a double without its sign, with that sign, are integers in the order of the doubles.
+    bits = times.view(np.int64)
+    magnitudes = bits & _MAGNITUDE
     steps = np.arange(len(times))
-    places = np.maximum.accumulate((bits ^ ((bits >> 63) & _SIGN)) - steps) + steps
+    places = np.maximum.accumulate(np.where(bits < 0, -magnitudes, magnitudes) - steps) + steps
     top = np.float64(LARGEST).view(np.int64)
     places = np.minimum(places, top - steps[::-1])
-    increasing: Floats = (places ^ ((places >> 63) & _SIGN)).view(np.float64)
+    increasing: Floats = np.copysign(np.abs(places).view(np.float64), places)
     return increasing
 
 
-def rounding_slack(*times: Floats) -> float:
-    """How far apart rounding may have put two times that were meant to be equal, after sums of numbers of this size."""
-    largest = max(float(np.abs(column).max()) if len(column) else 0.0 for column in times)
-    return 4.0 * float(np.spacing(largest)) if largest < LARGEST else 0.0
+def rounding_slack(keys: Run, rows: Run) -> float:
+    """How far apart rounding may have put two times that were meant to be equal, when *keys* have become *rows*."""
+    largest = max(abs(float(run["time"][end])) for run in (keys, rows) for end in (0, -1))
+    return 4.0 * ulp(largest) if largest < LARGEST else 0.0

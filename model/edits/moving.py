@@ -58,7 +58,7 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
                 rows["value"] = clamped(keys["value"] + d_value)
             if d_time and reorder:
                 rows["time"] = strictly_increasing(clamped(keys["time"] + d_time))
-                slack = rounding_slack(keys["time"][[0, -1]], rows["time"][[0, -1]])
+                slack = rounding_slack(keys, rows)
             elif d_time:
                 rows["time"] = _short_of_neighbours(channel, keys, clamped(keys["time"] + d_time))
         changes += placed(channel, keys, rows, slack=slack)
@@ -126,7 +126,7 @@ def scale(
                 if f_time < 0.0:
                     rows = _mirrored(rows)
                 rows["time"] = strictly_increasing(rows["time"])
-                slack = rounding_slack(keys["time"][[0, -1]], rows["time"][[0, -1]])
+                slack = rounding_slack(keys, rows)
         changes += placed(channel, keys, rows, slack=slack)
     return changes
 

@@ -69,7 +69,7 @@ def _shifted(run: Run, d_time: float, d_value: float) -> tuple[Run, float]:
     with np.errstate(over="ignore"):
         if d_time:
             rows["time"] = strictly_increasing(clamped(run["time"] + d_time))
-            slack = rounding_slack(run["time"][[0, -1]], rows["time"][[0, -1]])
+            slack = rounding_slack(run, rows)
         if d_value:
             rows["value"] = clamped(run["value"] + d_value)
     return rows, slack
