@@ -17,7 +17,7 @@ from widgets.theme import Theme
 type Index = QModelIndex | QPersistentModelIndex
 
 ROW_HEIGHT: Final = 24
-SWATCH: Final = 22
+SWATCH: Final = 20
 ICON: Final = 16
 GAP: Final = 6
 # How far an icon that is off goes towards the background: little in the row under the mouse, else nearly all the way.
@@ -125,8 +125,7 @@ class ChannelCells(QStyledItemDelegate):
         painter.setFont(font)
         painter.setPen(self._theme.text if seen else self._theme.text_dim)
         text = channel.leaf if channel is not None else self._rows.groups[index.row()].name
-        # The end of a long name tells more than its beginning.
-        text = QFontMetrics(font).elidedText(text, Qt.TextElideMode.ElideLeft, rect.width())
+        text = QFontMetrics(font).elidedText(text, Qt.TextElideMode.ElideRight, rect.width())
         painter.drawText(rect, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
     def _paint_toggle(self, painter: QPainter, option: QStyleOptionViewItem, index: Index, column: Column) -> None:

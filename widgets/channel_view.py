@@ -8,15 +8,16 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeView, QWidget
 
 from model.channel import Channel
 from model.document import Document, Gesture
-from widgets.channel_cells import ChannelCells, SeenValue
+from widgets.channel_cells import GAP, SWATCH, ChannelCells, SeenValue
 from widgets.channel_rows import TOGGLES, ChannelRows, Column
 from widgets.channel_verbs import lock_label, set_shown, set_solo, settings
 from widgets.colors import mix
 from widgets.guard import guarded
 from widgets.theme import Theme
 
-VALUE_WIDTH: Final = 84
-TOGGLE_WIDTH: Final = 26
+TOGGLE_WIDTH: Final = 23
+WIDEST_VALUE: Final = "-9999.9°"
+WIDEST_NAME: Final = "translateX"  # of what a narrow dock must still show
 # Keys that move about in the tree; without this the window's shortcuts would take them.
 OWN_KEYS: Final = frozenset(
     {
@@ -83,7 +84,12 @@ class ChannelView(QTreeView):
         header.setSectionResizeMode(Column.NAME, QHeaderView.ResizeMode.Stretch)
         for column in list(Column)[1:]:
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-            header.resizeSection(column, VALUE_WIDTH if column == Column.VALUE else TOGGLE_WIDTH)
+            header.resizeSection(column, TOGGLE_WIDTH)
+        metrics = self.fontMetrics()
+        header.resizeSection(Column.VALUE, metrics.horizontalAdvance(WIDEST_VALUE) + 2 * GAP)
+        name = metrics.horizontalAdvance(WIDEST_NAME) + SWATCH + 2 * GAP + 2 * self.indentation()
+        numbers = sum(header.sectionSize(column) for column in list(Column)[1:])
+        self.setMinimumWidth(name + numbers + self.verticalScrollBar().sizeHint().width())
 
     def recolor(self) -> None:
         """Take the colours of the theme; chosen rows are tinted only, so that the swatches stay what they are."""

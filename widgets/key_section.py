@@ -58,6 +58,8 @@ class KeySection(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.heading)
         layout.addWidget(body)
+        theme.theme_changed.connect(self._recolor)
+        self._recolor()
         self.refresh()
 
     def refresh(self) -> None:
@@ -76,6 +78,10 @@ class KeySection(QWidget):
         for half, state in ((self.unified, False), (self.broken, True)):
             half.setEnabled(some)
             half.setChecked(broken is not None and bool(broken) == state)
+
+    def _recolor(self) -> None:
+        for half in (self.unified, self.broken):
+            half.setStyleSheet(self._theme.button_style())
 
     def _unit_text(self, name: str) -> str:
         if not self._document.session.selection:

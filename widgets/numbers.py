@@ -21,11 +21,11 @@ def shown(number: float, digits: int = 6) -> str:
 
 
 def steady(number: float) -> str:
-    """The number with three decimals, so that a column of changing numbers stands still."""
+    """The number in at most eight characters, three decimals where they fit: a column of them stands still."""
     size = abs(number)
-    if size >= 1e7 or 0 < size < 5e-4:
-        return f"{number:.2e}"
-    text = f"{number:.3f}"
+    if size >= 1e6 or 0 < size < 5e-4:
+        return f"{number:.1e}"
+    text = f"{number:.{3 if size < 100 else 2 if size < 1000 else 1}f}"
     return "0.000" if text == "-0.000" else text
 
 

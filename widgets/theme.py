@@ -135,6 +135,13 @@ class Theme(QObject):
             pen.setDashPattern(dash)
         return pen
 
+    def button_style(self) -> str:
+        """A style sheet for tool buttons or a tool bar: what is switched on, or has the focus, can be seen from afar."""
+        accent, ground = self.accent, mix(self.palette().color(QPalette.ColorRole.Window), self.accent, 0.3)
+        checked = f"background-color: {ground.name()}; border: 1px solid {accent.name()}; border-radius: 4px;"
+        focus = f"border: 1px solid {accent.name()}; border-radius: 4px;"
+        return f"QToolButton:checked {{ {checked} }} QToolButton:focus {{ {focus} }}"
+
     def number_font(self, font: QFont) -> QFont:
         """The font with digits of one width, so that changing numbers stand still."""
         font = QFont(font)

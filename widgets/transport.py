@@ -83,6 +83,7 @@ class Transport(QWidget):
         self._add_fields()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self._listen()
+        self._recolor()
         self._show_options("playing")
         self._show_options("loop")
 
@@ -187,6 +188,11 @@ class Transport(QWidget):
         session.option_changed.connect(self._show_options)
         document.setting_changed.connect(self._refresh.ask)
         document.clip_replaced.connect(self._refresh.ask)
+        self._theme.theme_changed.connect(self._recolor)
+
+    def _recolor(self) -> None:
+        for button in self.buttons.values():
+            button.setStyleSheet(self._theme.button_style())
 
     def _show_numbers(self) -> None:
         for field in self.fields.values():
