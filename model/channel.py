@@ -13,10 +13,12 @@ from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation
 from model.hermite import LARGEST, Floats
 from model.keyframe import Keyframe, Run
 from model.lookup import SLOTS_A_TIME, TABLE_TIMES, Table
-from model.rows import MARK_FIELDS, NUMBER_FIELDS, TIME, VALUE, A, B, C, Rows
+from model.rows import D_TIME, MARK_FIELDS, NUMBER_FIELDS, TIME, VALUE, A, B, C, Rows
 
 _NUMBERS = dict(NUMBER_FIELDS)
 _MARKS = dict(MARK_FIELDS)
+
+_SPAN_COLUMNS = [D_TIME, A, B, C]
 
 # One span in Python numbers: (time0, time1, d_time, a, b, c, d); the last key holds its own time only.
 type Span = tuple[float, float, float, float, float, float, float]
@@ -276,6 +278,10 @@ class Channel:
             self._ends = evaluation.ends_of(self._rows)
         return self._ends
 
+    def ends(self) -> Ends | None:
+        """Times, values and outward slopes of the first and last key; None without keys."""
+        return self._the_ends() if len(self) else None
+
     def evaluate(self, times: ArrayLike) -> Floats:
         """The values at *times* (seconds, any shape); NaN in, NaN out, every finite time gives a finite value."""
         array = np.asarray(times, np.float64)
@@ -376,6 +382,26 @@ class Channel:
         keys = self._rows.columns(rank0, rank1 + 1)
         a, b, c = (np.clip(np.nan_to_num(keys[i, :-1]), -LARGEST, LARGEST) for i in (A, B, C))
         return Spans(keys[TIME, :-1], keys[TIME, 1:], a, b, c, keys[VALUE, :-1])
+
+    def spans_from(self, time: float, most: int) -> Floats:
+        """(time0, time1, d_time, a, b, c, d) of neighbouring spans: (7, n), 1 <= n <= *most*.
+
+        The first is the one that *time*, which must lie among the keys, is in; the last key counts as a span that
+        holds its own time only. Numbers too large for doubles are inf or NaN.
+        """
+        rows = self._rows
+        row, place = rows.place(rows.rank_at(time) - 1)
+        held = rows.held(row)
+        end = min(place + most, held)
+        line = rows.number_grid[:, row]
+        spans = np.empty((7, end - place))
+        spans[0], spans[2:6], spans[6] = line[TIME, place:end], line[_SPAN_COLUMNS, place:end], line[VALUE, place:end]
+        spans[1, :-1] = spans[0, 1:]
+        if end < held:
+            spans[1, -1] = line[TIME, end]
+        else:
+            spans[1, -1] = rows.starts[row + 1] if row + 1 < rows.rows else nextafter(float(spans[0, -1]), inf)
+        return spans
 
     def spans_between(self, t0: float, t1: float) -> Spans:
         """The spans that touch [t0, t1]."""

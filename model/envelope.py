@@ -1,8 +1,8 @@
 """The exact range of a curve in each column of a picture, whatever the number of keys.
 
-Inside a span the curve turns at most twice. Each span keeps the lowest and highest of its first key and these turns, each
-block of spans the lowest and highest of its spans. A column is then its two edges, the turns of the two spans that
-its edges cut, and the spans and blocks between.
+Inside a span the curve turns at most twice. Each span keeps the lowest and highest of its first key and these
+turns, each block of spans the lowest and highest of its spans. A column is then its two edges, the turns of the two
+spans that its edges cut, and the spans and blocks between.
 """
 
 from typing import NamedTuple
@@ -43,7 +43,7 @@ class Extremes:
         rows.dirty.difference_update(stale)
 
     def between(self, starts: Slots, ends: Slots) -> Range:
-        """The ranges over the slots from each of *starts* up to before each of *ends*; (inf, -inf) if there are none."""
+        """The ranges over the slots from *starts* up to before *ends*, pair by pair; (inf, -inf) over none."""
         size = self.block
         first, last = -(-starts // size), ends // size
         low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
