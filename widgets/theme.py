@@ -136,7 +136,7 @@ class Theme(QObject):
         return pen
 
     def button_style(self) -> str:
-        """A style sheet for tool buttons or a tool bar: what is switched on, or has the focus, can be seen from afar."""
+        """A style sheet for tool buttons or a tool bar: what is on, or has the focus, can be seen from afar."""
         accent, ground = self.accent, mix(self.palette().color(QPalette.ColorRole.Window), self.accent, 0.3)
         checked = f"background-color: {ground.name()}; border: 1px solid {accent.name()}; border-radius: 4px;"
         focus = f"border: 1px solid {accent.name()}; border-radius: 4px;"
