@@ -92,6 +92,10 @@ class MouseRouter(QObject):
     def _press(self, event: QMouseEvent) -> bool:
         alone = event.buttons() == event.button()
         double = event.type() == QEvent.Type.MouseButtonDblClick
+        other = self.graph.document.gesture
+        if other is not None and event.button() == Button.LeftButton and not self.busy:
+            self._say(f"Finish or cancel the other change first: {other.label}")
+            return True
         self.strokes.press(self._point_of(event), double=double, alone=alone)
         return self._taken(event)
 
