@@ -4,7 +4,7 @@ from typing import Final
 
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from widgets.guard import guarded
 from widgets.value_field import ValueField
@@ -23,6 +23,7 @@ class ScrubLabel(QLabel):
         self._from: float | None = None
         self._scrubbing = False
         self._last = 0.0
+        self._focus_before: QWidget | None = None
         self.setBuddy(field)
         self.setCursor(Qt.CursorShape.SizeHorCursor)
         self.setToolTip(f"{field.toolTip()}\nDrag this name sideways to change the number.")
@@ -42,7 +43,8 @@ class ScrubLabel(QLabel):
             return
         if not self._scrubbing:
             self._scrubbing = True
-            self.grabKeyboard()
+            self._focus_before = QApplication.focusWidget()
+            self.setFocus(Qt.FocusReason.OtherFocusReason)  # so that Esc arrives here
         steps = (x - self._last) / PIXELS_A_STEP
         self._last = x
         modifiers = event.modifiers()
@@ -73,7 +75,7 @@ class ScrubLabel(QLabel):
     @guarded(False)
     def event(self, event: QEvent) -> bool:
         if self._scrubbing:
-            if event.type() in (QEvent.Type.Hide, QEvent.Type.WindowDeactivate):
+            if event.type() in (QEvent.Type.Hide, QEvent.Type.WindowDeactivate, QEvent.Type.FocusOut):
                 self._end(keep=False)
             elif event.type() == QEvent.Type.ShortcutOverride:
                 event.accept()  # in a drag every key is ours
@@ -81,9 +83,13 @@ class ScrubLabel(QLabel):
         return super().event(event)
 
     def _end(self, *, keep: bool) -> None:
-        if self._scrubbing:
-            self.releaseKeyboard()
-        self._from, self._scrubbing = None, False
+        scrubbed, before = self._scrubbing, self._focus_before
+        self._from, self._scrubbing, self._focus_before = None, False, None
         if not keep:
             self._field.take_back()
         self._field.release()
+        if scrubbed and self.hasFocus():
+            if before is not None:
+                before.setFocus(Qt.FocusReason.OtherFocusReason)
+            else:
+                self.clearFocus()
