@@ -43,7 +43,7 @@ class KeySection(QWidget):
         self.heading = Heading(theme, "Key", self)
         self.fields: dict[str, ValueField] = {}
         self.rules: dict[str, QuietCombo] = {}
-        self._units: dict[str, DimLabel] = {}
+        self.units: dict[str, DimLabel] = {}
         body = QWidget(self)
         self._grid = form_grid(body)
         self._grid.setColumnMinimumWidth(2, self.fontMetrics().horizontalAdvance(WIDEST_UNIT))
@@ -51,8 +51,10 @@ class KeySection(QWidget):
             self._add_number(name, label, tip)
         for side, label in SIDES:
             self._add_rule(side, label)
-        self.unified = self._half("unify", "Unified", "Both tangents turn together", edits.unify_tangents)
-        self.broken = self._half("break", "Broken", "Each tangent turns alone", edits.break_tangents)
+        self.unified = self._half("unify", "Unified", "Both tangents turn together")
+        self.unified.clicked.connect(self._unify)
+        self.broken = self._half("break", "Broken", "Each tangent turns alone")
+        self.broken.clicked.connect(self._break)
         self._add_halves()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -68,7 +70,7 @@ class KeySection(QWidget):
         self.heading.detail.say(keys_text(selection) if selection else "nothing selected")
         for name, field in self.fields.items():
             field.refresh()
-            self._units[name].say(self._unit_text(name))
+            self.units[name].say(self._unit_text(name))
         some = bool(selection)
         for side, combo in self.rules.items():
             combo.setEnabled(some)
@@ -107,8 +109,8 @@ class KeySection(QWidget):
         field.status.connect(self.status)
         self.fields[name] = field
         row = self._add_row(ScrubLabel(label, field), field, span=1)
-        self._units[name] = DimLabel(self._theme)
-        self._grid.addWidget(self._units[name], row, 2)
+        self.units[name] = DimLabel(self._theme)
+        self._grid.addWidget(self.units[name], row, 2)
 
     def _add_rule(self, side: str, label: str) -> None:
         combo = QuietCombo(label, self)
@@ -123,7 +125,7 @@ class KeySection(QWidget):
         self._add_row(words, combo)
         self.rules[side] = combo
 
-    def _half(self, icon: str, text: str, tip: str, verb: object) -> QToolButton:
+    def _half(self, icon: str, text: str, tip: str) -> QToolButton:
         button = QToolButton(self)
         button.setIcon(self._theme.icon(icon))
         button.setIconSize(QSize(18, 18))
@@ -134,7 +136,6 @@ class KeySection(QWidget):
         button.setCheckable(True)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        button.clicked.connect(partial(self._join, verb))
         return button
 
     def _add_halves(self) -> None:
@@ -154,11 +155,16 @@ class KeySection(QWidget):
         self._document.do(label, lambda clip: edits.set_rule(clip, selection, rule, side))
         self.refresh()
 
-    def _join(self, verb: object, _checked: bool) -> None:
+    def _unify(self) -> None:
         selection = self._document.session.selection
-        word = "Unify" if verb is edits.unify_tangents else "Break"
-        if callable(verb):
-            self._document.do(self._document.label_of(word, selection), lambda clip: verb(clip, selection))
+        label = self._document.label_of("Unify", selection)
+        self._document.do(label, lambda clip: edits.unify_tangents(clip, selection))
+        self.refresh()
+
+    def _break(self) -> None:
+        selection = self._document.session.selection
+        label = self._document.label_of("Break", selection)
+        self._document.do(label, lambda clip: edits.break_tangents(clip, selection))
         self.refresh()
 
 
