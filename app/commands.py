@@ -185,10 +185,8 @@ def _info(arguments: argparse.Namespace) -> None:
     extent = clip.extent()
     if extent:
         lines.append(f"keys from {extent[0]!r} to {extent[1]!r} s")
-    rows: list[tuple[str, ...]] = [
-        ("channel", "keys", "first", "last", "lowest", "highest", "before", "after", "unit", "rules (sides)")
-    ]
-    rows += [_row(channel) for channel in clip.channels]
+    titles = ("channel", "keys", "first", "last", "lowest", "highest", "before", "after", "unit", "rules (sides)")
+    rows = [titles, *map(_row, clip.channels)]
     _print("\n".join([*map(_printable, lines), "", *_table(rows)]) + "\n")
 
 

@@ -49,9 +49,7 @@ FORMATS: Final[dict[str, Format]] = {
 }
 _PROBE: Final = 1 << 16
 _MARK: Final = b"\xef\xbb\xbf"
-# Control characters have no place in any of the formats; a text of 1,000,000 keys is checked in 0.05 s this way.
 _TEXT_BYTES: Final = bytes(c for c in range(256) if c >= 32 and c != 127) + b"\t\r\n"
-_CONTROL: Final = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
 
 def sniff(data: bytes) -> str:
@@ -152,8 +150,7 @@ def _named_by_skeleton(content: Content, name: str, skeleton: Skeleton, *, besid
 
 def _check_text(data: bytes, format_name: str) -> None:
     """Refuse at once what no format reads: nothing at all, other kinds of file, control characters, endless lines."""
-    blank = not data.strip(b" \t\r\n")
-    if blank:
+    if not data[:_PROBE].strip(b" \t\r\n") and not data.strip(b" \t\r\n"):
         raise TextError(
             -1, "the file is empty" if not data else "the file holds nothing but blanks", "take an older copy"
         )
@@ -168,10 +165,6 @@ def _check_text(data: bytes, format_name: str) -> None:
             re.split(rb"[\s{}]", data[start : start + MAX_TOKEN_BYTES], maxsplit=1)[0] or data[start : start + 1]
         )
         raise TextError(start, f"expected 'animation {{' or 'hermite 1', found {found}", "is this an animation clip?")
-    if data.translate(None, _TEXT_BYTES):
-        match = _CONTROL.search(data)
-        start = match.start() if match else 0
-        raise TextError(start, f"found the byte {data[start]:#04x}, which no text has", "the file is damaged")
     if data.count(b"\n") > MAX_LINES:
         raise TextError(-1, f"the file has more than {MAX_LINES:,} lines")
 

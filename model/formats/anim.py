@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from model.extrapolation import Extrapolation
 from model.formats.content import ChannelContent, Content
 from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
-from model.formats.keys import Words, run_from_text, text_from_run
+from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token
 from model.keyframe import Run, TangentRule
 
@@ -131,14 +131,15 @@ def _held_run(run: Run) -> Run:
 def write(content: Content) -> bytes:
     """The text of *content*, of which only what ``held`` leaves is in it."""
     content = held(content)
-    parts = [
-        f"animation {{\n  range {content.start!r} {content.end!r}\n  numchannels {len(content.channels)}\n",
-    ]
+    head = f"animation {{\n  range {content.start!r} {content.end!r}\n  numchannels {len(content.channels)}\n"
+    parts = [head.encode()]
+    keys = KeyWriter(_WRITTEN, "      ", "\t", flags=False)
     for channel in content.channels:
         parts += [
-            f"  channel {{\n    extrapolate {channel.pre.word} {channel.post.word}\n    keys {len(channel.run)} {{\n",
-            text_from_run(channel.run, _WRITTEN, "      ", "\t", flags=False),
-            "    }\n  }\n",
+            f"  channel {{\n    extrapolate {channel.pre.word} {channel.post.word}\n".encode(),
+            b"    keys %d {\n" % len(channel.run),
+            keys.text(channel.run),
+            b"    }\n  }\n",
         ]
-    parts.append("}\n")
-    return "".join(parts).encode("ascii")
+    parts.append(b"}\n")
+    return b"".join(parts)

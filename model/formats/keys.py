@@ -1,22 +1,24 @@
 """Blocks of keys as text, both ways: one key a line, time, value, tangent in, tangent out."""
 
-import re
 from itertools import compress, repeat
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from model.formats.error import TextError, place_of, shown
-from model.formats.scanner import NUMBER, Token, number_from
-from model.keyframe import Run, TangentRule, make_run
+from model.formats.decimals import CELL, Cells, fill_cells
+from model.formats.error import MAX_KEYS, TextError
+from model.formats.key_errors import first_error, order_error
+from model.formats.numerals import Columns, columns_of
+from model.keyframe import KEY_DTYPE, Run, TangentRule
 
 _FIXED: Final = int(TangentRule.FIXED)
 BROKEN: Final = b"broken"
+_FIELDS: Final = ("time", "value", "rule_in", "slope_in", "rule_out", "slope_out", "broken")  # in the order of Columns
 type Words = dict[bytes, int]
 
-_WORDS: Final = re.compile(rb"[^ \t\r\n]+")
-_COLUMNS: Final = ("the key's time", "the key's value", "the tangent in", "the tangent out")
+_PIECE: Final = 1 << 18  # bytes read at once
+_LINES: Final = 4096  # written at once
 
 
 def run_from_text(data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Run:
@@ -26,27 +28,65 @@ def run_from_text(data: bytes, start: int, end: int, words_in: Words, words_out:
     With *flags* the word ``broken`` may follow a key. The slopes of all other rules are left 0. Raises TextError at the
     first word that is wrong; times must strictly increase.
     """
+    pieces = _quick_pieces(data, start, end, words_in, words_out, flags=flags)
+    if pieces is None:
+        pieces = [_slow_piece(data, start, end, words_in, words_out, flags=flags)]
+    run = _joined(pieces)
+    if len(run) > MAX_KEYS:
+        raise TextError(start, f"{len(run)} keys in one channel; at most {MAX_KEYS} are read")
+    times = run["time"]
+    if len(times) > 1 and not bool((times[1:] > times[:-1]).all()):
+        raise order_error(data, start, end, times, BROKEN if flags else b"")
+    return run
+
+
+def _joined(pieces: list[Columns]) -> Run:
+    run = np.zeros(sum(len(piece.times) for piece in pieces), KEY_DTYPE)
+    first = 0
+    for piece in pieces:
+        part = run[first : first + len(piece.times)]
+        for field, column in zip(_FIELDS, piece, strict=True):
+            part[field] = column
+        first += len(part)
+    return run
+
+
+def _quick_pieces(
+    data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool
+) -> list[Columns] | None:
+    """The keys, piece by piece, each cut at the end of a line; None if they are not written one a line, plainly."""
+    pieces: list[Columns] = []
+    position = start
+    while position < end or not pieces:
+        cut = end if end - position <= _PIECE else data.find(b"\n", position + _PIECE, end)
+        cut = end if cut < 0 else cut
+        piece = columns_of(data[position:cut], words_in, words_out, _FIXED, BROKEN if flags else b"")
+        if piece is None or not (np.isfinite(piece.times).all() and np.isfinite(piece.values).all()):
+            return None
+        if not (np.isfinite(piece.slopes_in).all() and np.isfinite(piece.slopes_out).all()):
+            return None
+        pieces.append(piece)
+        position = cut
+    return pieces
+
+
+def _slow_piece(data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Columns:
+    """The same one word after the other: takes keys however they are laid out, and names what is wrong."""
     tokens = data[start:end].split()
-    broken: NDArray[np.bool_] | bool = False
-    if flags and BROKEN in tokens:
-        tokens, broken = _without_flags(data, start, end, tokens)
-    if len(tokens) % 4:
-        raise _first_fault(data, start, end, words_in, words_out, flags=flags)
+    flag = BROKEN if flags else b""
+    error = first_error(data, start, end, words_in, words_out, flag)
+    if error is not None:
+        raise error
+    broken = np.zeros(len(tokens) // 4, np.bool_)
+    if flag in tokens:
+        is_flag = np.fromiter(map(flag.__eq__, tokens), np.bool_, len(tokens))
+        tokens = list(compress(tokens, ~is_flag))
+        broken = np.zeros(len(tokens) // 4, np.bool_)
+        broken[(np.flatnonzero(is_flag) - np.arange(np.count_nonzero(is_flag))) // 4 - 1] = True
     n = len(tokens) // 4
-    try:
-        times = np.fromiter(map(float, tokens[0::4]), np.float64, n)
-        values = np.fromiter(map(float, tokens[1::4]), np.float64, n)
-        rules_in, slopes_in = _tangents(tokens[2::4], words_in)
-        rules_out, slopes_out = _tangents(tokens[3::4], words_out)
-    except ValueError:
-        raise _first_fault(data, start, end, words_in, words_out, flags=flags) from None
-    finite = all(bool(np.isfinite(column).all()) for column in (times, values, slopes_in, slopes_out))
-    # float() takes 1_000, nan and inf as well; the first is caught by its underscore, which no word here has.
-    if not finite or data.find(b"_", start, end) >= 0:
-        raise _first_fault(data, start, end, words_in, words_out, flags=flags)
-    if n > 1 and not bool((times[1:] > times[:-1]).all()):
-        raise _order_fault(data, start, end, times, flags=flags)
-    return make_run(times, values, slopes_in, slopes_out, rules_in, rules_out, broken)
+    times = np.fromiter(map(float, tokens[0::4]), np.float64, n)
+    values = np.fromiter(map(float, tokens[1::4]), np.float64, n)
+    return Columns(times, values, *_tangents(tokens[2::4], words_in), *_tangents(tokens[3::4], words_out), broken)
 
 
 def _tangents(tokens: list[bytes], words: Words) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
@@ -57,101 +97,53 @@ def _tangents(tokens: list[bytes], words: Words) -> tuple[NDArray[np.uint8], NDA
     return rules, slopes
 
 
-def _without_flags(data: bytes, start: int, end: int, tokens: list[bytes]) -> tuple[list[bytes], NDArray[np.bool_]]:
-    """The tokens of the keys alone, and which keys had the flag after them."""
-    is_flag = np.fromiter(map(BROKEN.__eq__, tokens), np.bool_, len(tokens))
-    before = np.flatnonzero(is_flag) - np.arange(np.count_nonzero(is_flag))
-    rest = list(compress(tokens, ~is_flag))
-    flagged = np.zeros(len(rest) // 4, np.bool_)
-    misplaced = (before % 4 != 0) | (before == 0) | (before > 4 * len(flagged))
-    misplaced[1:] |= before[1:] == before[:-1]
-    if misplaced.any():
-        index = int(np.flatnonzero(is_flag)[misplaced][0])
-        raise TextError(_offset_of_word(data, start, end, index), "'broken' belongs at the end of a key's line, once")
-    flagged[before // 4 - 1] = True
-    return rest, flagged
+class KeyWriter:
+    """Writes keys one a line, each line ended; a fixed tangent is its slope, the other rules are their words.
 
-
-def _offset_of_word(data: bytes, start: int, end: int, index: int) -> int:
-    """The offset of the word number *index* of data[start:end]; counts piece by piece, there may be millions."""
-    position = start
-    while end - position > 1 << 17:
-        cut = max(data.rfind(mark, position, position + (1 << 16)) for mark in (b" ", b"\t", b"\n"))
-        if cut <= position:
-            break
-        words = len(data[position:cut].split())
-        if words > index:
-            break
-        index -= words
-        position = cut
-    for number, match in enumerate(_WORDS.finditer(data, position, end)):
-        if number == index:
-            return match.start()
-    return end
-
-
-def _first_fault(data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> TextError:
-    """The first thing wrong with the words of a block that the quick way has refused."""
-    column = 4
-    for match in _WORDS.finditer(data, start, end):
-        token = Token(match.group(), match.start())
-        if flags and token.text == BROKEN and column == 4:
-            continue
-        column %= 4
-        try:
-            if column < 2:
-                number_from(token, _COLUMNS[column])
-            else:
-                _check_tangent(token, words_in if column == 2 else words_out, _COLUMNS[column])
-        except TextError as fault:
-            return fault
-        column += 1
-    found = shown(data[end : end + 1])
-    return TextError(
-        end, f"expected {_COLUMNS[column % 4]}, found {found}", "a key is time, value, tangent in, tangent out"
-    )
-
-
-def _check_tangent(token: Token, words: Words, what: str) -> None:
-    if token.text in words:
-        return
-    if NUMBER.match(token.text):
-        number_from(token, what)
-        return
-    known = ", ".join(word.decode() for word in words)
-    remedy = "step is a rule for the tangent out only" if token.text in (b"step", b"stepped") else ""
-    raise TextError(token.start, f"expected {what} ({known}, or a number), found {shown(token.text)}", remedy)
-
-
-def _order_fault(data: bytes, start: int, end: int, times: NDArray[np.float64], *, flags: bool) -> TextError:
-    at = int(np.flatnonzero(times[1:] <= times[:-1])[0]) + 1
-    words = _WORDS.finditer(data, start, end)
-    starts = [match.start() for match in words if not (flags and match.group() == BROKEN)][: 4 * at + 1 : 4]
-    line = place_of(data, starts[at - 1])[0]
-    first, second = float(times[at - 1]), float(times[at])
-    problem = f"the key's time {second!r} does not come after {first!r} (line {line})"
-    return TextError(starts[at], problem, "keys are listed in strictly increasing time")
-
-
-def text_from_run(run: Run, words: dict[int, str], indent: str, separator: str, *, flags: bool) -> str:
-    """One line a key, each ending with a line break; a fixed tangent is its slope, other rules are their word.
-
-    With *flags* a broken key has the word ``broken`` after it.
+    With *flags* a broken key has the word ``broken`` behind it.
     """
-    columns = [
-        list(map(repr, run["time"].tolist())),
-        list(map(repr, run["value"].tolist())),
-        _tangent_texts(run["rule_in"], run["slope_in"], words),
-        _tangent_texts(run["rule_out"], run["slope_out"], words),
-    ]
-    lines = list(map(separator.join, zip(*columns, strict=True)))
-    for i in np.flatnonzero(run["broken"] & flags).tolist():
-        lines[i] += separator + BROKEN.decode()
-    return "".join(f"{indent}{line}\n" for line in lines)
+
+    def __init__(self, words: dict[int, str], indent: str, separator: str, *, flags: bool) -> None:
+        self.flags = flags
+        self._indent = _quads(indent, (len(indent) + 3) // 4)
+        self._separator = _quads(separator, 1)[0]
+        self._words = np.array([_quads(words.get(rule, ""), 2) for rule in range(max(TangentRule) + 1)])
+        self._ends = _quads("\n", 2), _quads(f"{separator}{BROKEN.decode()}\n", 2)
+
+    def text(self, run: Run) -> bytes:
+        """The lines of *run*."""
+        return b"".join(self._lines(run[i : i + _LINES]) for i in range(0, len(run), _LINES))
+
+    def _lines(self, run: Run) -> bytes:
+        """Cells of four bytes each, side by side; where a cell is not full there are NULs, which are taken out."""
+        n = len(run)
+        tangents = [(run[f"rule_{side}"], run[f"slope_{side}"]) for side in ("in", "out")]
+        widths = [CELL if (rules == _FIXED).any() else 3 for rules, _ in tangents]
+        broken = run["broken"] if self.flags else np.zeros(n, np.bool_)
+        widths = [len(self._indent), CELL, CELL, *widths, 2 if broken.any() else 1]
+        line = np.zeros((n, sum(widths)), np.uint32)
+        indent, times, values, tangents_in, tangents_out, end = np.split(line, np.cumsum(widths)[:-1], axis=1)
+        indent[:] = self._indent
+        fill_cells(times, np.ascontiguousarray(run["time"]))
+        values[:, 0] = tangents_in[:, 0] = tangents_out[:, 0] = self._separator
+        fill_cells(values, np.ascontiguousarray(run["value"]))
+        for cells, (rules, slopes) in zip((tangents_in, tangents_out), tangents, strict=True):
+            self._fill_tangents(cells, rules, slopes)
+        end[:, 0] = np.where(broken, self._ends[1][0], self._ends[0][0])
+        if end.shape[1] == 2:
+            end[:, 1] = np.where(broken, self._ends[1][1], self._ends[0][1])
+        return line.tobytes().translate(None, b"\0")
+
+    def _fill_tangents(self, cells: Cells, rules: NDArray[np.uint8], slopes: NDArray[np.float64]) -> None:
+        cells[:, 1] = self._words[:, 0][rules]
+        cells[:, 2] = self._words[:, 1][rules]
+        fixed = np.flatnonzero(rules == _FIXED)
+        if len(fixed):
+            numbers = np.zeros((len(fixed), CELL), np.uint32)
+            numbers[:, 0] = self._separator
+            fill_cells(numbers, slopes[fixed])
+            cells[fixed] = numbers
 
 
-def _tangent_texts(rules: NDArray[np.uint8], slopes: NDArray[np.float64], words: dict[int, str]) -> list[str]:
-    texts = list(map(words.get, rules.tolist(), repeat("")))
-    for i in np.flatnonzero(rules == _FIXED).tolist():
-        texts[i] = repr(float(slopes[i]))
-    return texts
+def _quads(text: str, count: int) -> Cells:
+    return np.frombuffer(text.encode("ascii").ljust(4 * count, b"\0"), np.uint32)

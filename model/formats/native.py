@@ -9,7 +9,7 @@ from typing import Final
 from model.extrapolation import Extrapolation
 from model.formats.content import ChannelContent, Content
 from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
-from model.formats.keys import Words, run_from_text, text_from_run
+from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token, checked_text, quoted
 from model.keyframe import Run, TangentRule
 
@@ -127,20 +127,24 @@ def held(content: Content) -> Content:
 
 def write(content: Content) -> bytes:
     """The text of *content*, the same bytes for the same content. Raises TextError when a text is too long."""
-    parts = [f"hermite {VERSION}\n"]
+    keys = KeyWriter(_WRITTEN, "    ", " ", flags=True)
+    head = [f"hermite {VERSION}\n"]
     if content.title:
-        parts.append(f"title {quoted(checked_text(content.title, 'the title'))}\n")
-    parts.append(f"range {content.start!r} {content.end!r}\nrate {content.frame_rate!r}\n")
+        head.append(f"title {quoted(checked_text(content.title, 'the title'))}\n")
+    head.append(f"range {content.start!r} {content.end!r}\nrate {content.frame_rate!r}\n")
+    parts = ["".join(head).encode()]
     for channel in content.channels:
-        parts.append(f"\nchannel {quoted(checked_text(channel.name, 'a channel name'))} {{\n")
-        if channel.unit:
-            parts.append(f"  unit {quoted(checked_text(channel.unit, 'a unit'))}\n")
-        if channel.color is not None:
-            parts.append(f"  color {quoted(_checked_color(channel.color))}\n")
-        if channel.locked:
-            parts.append("  locked\n")
-        parts.append(f"  extrapolate {channel.pre.word} {channel.post.word}\n  keys {{\n")
-        parts.append(text_from_run(channel.run, _WRITTEN, "    ", " ", flags=True))
-        parts.append("  }\n}\n")
-    parts.append("\nend\n")
-    return "".join(parts).encode("utf-8")
+        parts += [_channel_head(channel).encode(), keys.text(channel.run), b"  }\n}\n"]
+    parts.append(b"\nend\n")
+    return b"".join(parts)
+
+
+def _channel_head(channel: ChannelContent) -> str:
+    lines = [f"\nchannel {quoted(checked_text(channel.name, 'a channel name'))} {{"]
+    if channel.unit:
+        lines.append(f"  unit {quoted(checked_text(channel.unit, 'a unit'))}")
+    if channel.color is not None:
+        lines.append(f"  color {quoted(_checked_color(channel.color))}")
+    if channel.locked:
+        lines.append("  locked")
+    return "\n".join([*lines, f"  extrapolate {channel.pre.word} {channel.post.word}", "  keys {", ""])

@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from typing import Final, NamedTuple
 
 from model.formats.error import MAX_NAME_BYTES, MAX_TOKEN_BYTES, TextError, shown
+from model.formats.numerals import NUMBER
 
 _BLANKS: Final = re.compile(rb"[ \t\r\n]*")
 # A brace ends a word, so that "channel 14{" reads as three words.
 _WORD: Final = re.compile(rb"[{}]|[^ \t\r\n{}]+")
 _TEXT: Final = re.compile(rb'"(?:[^"\\\n]|\\[^\n])*"')
-NUMBER: Final = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
 _COUNT: Final = re.compile(rb"[0-9]{1,18}\Z")
 
 
@@ -35,9 +35,10 @@ class Scanner:
         start = _BLANKS.match(self.data, self.position).end()  # type: ignore[union-attr]  # always matches
         word = _WORD.match(self.data, start, start + MAX_TOKEN_BYTES + 1)
         text = word.group() if word else b""
-        if len(text) > MAX_TOKEN_BYTES and not text.startswith(b'"'):
-            raise TextError(start, f"a word longer than {MAX_TOKEN_BYTES} characters", "is this the right file?")
-        return Token(text, start)
+        token = Token(text, start)
+        if not text.startswith(b'"'):
+            check_length(token)
+        return token
 
     def next(self) -> Token:
         """The next word."""
@@ -107,6 +108,12 @@ class Scanner:
         except ValueError as error:
             raise TextError(token.start, f"{what} is not a well-formed quoted text ({error})") from None
         return checked_text(str(text), what, token.start)
+
+
+def check_length(token: Token) -> None:
+    """Refuse a word that is longer than any number or word of a format."""
+    if len(token.text) > MAX_TOKEN_BYTES:
+        raise TextError(token.start, f"found a word longer than {MAX_TOKEN_BYTES} characters", "the file is damaged")
 
 
 def checked_text(text: str, what: str, start: int = 0) -> str:
