@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QStatusTipEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu
 
 from app.settings import LAYOUT_VERSION, Settings
@@ -14,10 +14,11 @@ from widgets.guard import guarded
 from widgets.theme import Theme
 
 if TYPE_CHECKING:
-    from app.actions.tangent import Rules
+    from app.actions.row import Need
     from app.clip_file import Opened
     from app.crash_bar import CrashBar
     from app.files import Files
+    from app.in_hand import InHand
     from app.menus import WindowAction
     from app.questions import Questions
     from app.status_row import StatusRow
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from widgets.channel_tree import ChannelTree
     from widgets.curve_view import CurveView
     from widgets.key_inspector import KeyInspector
+    from widgets.soon import Soon
     from widgets.transport import Transport
 
 FIRST_SIZE = (1400, 860)
@@ -51,7 +53,8 @@ class MainWindow(QMainWindow):
     docks: dict[str, QDockWidget]
     actions_by_id: dict[str, "WindowAction"]
     menus: dict[str, QMenu]
-    rules_in_hand: "Rules"
+    in_hand: "InHand"
+    tips: "Soon"
 
     assembled = Signal()
 
@@ -91,19 +94,30 @@ class MainWindow(QMainWindow):
 
     def refresh_actions(self) -> None:
         """Let every action show whether it can run now."""
-        from app.actions.tangent import common_rules
-
-        self.rules_in_hand = common_rules(self.session.selection)
+        self.look_at_hand()
+        known: dict[Need, bool] = {}
         for action in self.actions_by_id.values():
-            action.refresh()
+            action.refresh(known)
+        self.tips.ask()
+
+    def refresh_tips(self) -> None:
+        """Let every action say why it cannot run now."""
+        for action in self.actions_by_id.values():
+            action.refresh_tip()
+
+    def look_at_hand(self) -> None:
+        """Look up what the next command is about."""
+        from app.in_hand import InHand
+
+        self.in_hand = InHand.of(self.tree.chosen(), self.session.selection)
 
     def refresh_title(self) -> None:
         """Name the file in the title, with a mark when the clip differs from it."""
         self.setWindowTitle(f"{self.files.name}[*] — Hermite")
         self.setWindowFilePath(self.files.path)
         self.setWindowModified(self.files.modified)
-        self.actions_by_id["file.save"].refresh()
-        self.actions_by_id["file.revert"].refresh()
+        for name in ("file.save", "file.revert"):
+            self.actions_by_id[name].refresh({})
 
     def cancel_gesture(self) -> None:
         """End what is being dragged or previewed as if it had not begun."""
@@ -115,6 +129,7 @@ class MainWindow(QMainWindow):
         """Make *clip* the one that is edited; the history begins anew."""
         self.session.playing = False
         self.document.replace(clip)
+        self.session.active = clip.channels[0] if clip.channels else None
         self.view.frame_all()
 
     def activate(self, channel: "Channel") -> None:
@@ -177,14 +192,11 @@ class MainWindow(QMainWindow):
         else:
             QTimer.singleShot(0, self, partial(self.files.name_channels, skeletons[0]))
 
-    @guarded(False)
-    def event(self, event: QEvent) -> bool:
-        if self.ready and isinstance(event, QStatusTipEvent):
-            self.status.show_tip(event.tip())
-            return True
-        if self.ready and event.type() == QEvent.Type.ActivationChange and self.isActiveWindow():
+    @guarded()
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and self.ready and self.isActiveWindow():
             QTimer.singleShot(0, self, self.files.look_at_disk)
-        return super().event(event)
 
 
 def dropped_files(event: QDropEvent) -> list[str]:

@@ -8,7 +8,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu, QToolBar, QToolButton
 
 from app.actions import ACTIONS
-from app.actions.row import Action, Shortcut
+from app.actions.row import Action, Need, Shortcut
 from widgets.theme import ICON_SIZE, Theme
 from widgets.value_field import finish_entry
 
@@ -55,12 +55,15 @@ class WindowAction(QAction):
         self.setIconVisibleInMenu(True)
         if row.icon:
             self.setIcon(Theme.current().icon(row.icon))
-        self._set_tips("")
+        self._unmet = ""
+        self._heading = self._headed()
+        self._set_tips()
         self.triggered.connect(self.run)
 
     def run(self) -> None:
         """Do it, unless something it needs is missing or a drag is going on."""
         finish_entry()
+        self._window.look_at_hand()
         unmet = self.row.unmet_need(self._window)
         if unmet:
             self._window.say(f"{self.row.plain_label}: {unmet}")
@@ -70,23 +73,35 @@ class WindowAction(QAction):
             self.row.function(self._window)
         self._window.refresh_actions()
 
-    def refresh(self) -> None:
-        """Show what holds now: enabled or not and why, checked or not, its words."""
-        unmet = self.row.unmet_need(self._window)
-        if self.isEnabled() == bool(unmet):
-            self.setEnabled(not unmet)
-            self._set_tips(unmet)
+    def refresh(self, known: dict[Need, bool]) -> None:
+        """Show what holds now: enabled or not, checked or not, its words; *known* keeps what was looked up."""
+        self._unmet = ""
+        for need in self.row.needs:
+            if need not in known:
+                known[need] = need.met(self._window)
+            if not known[need]:
+                self._unmet = need.otherwise
+                break
+        self.setEnabled(not self._unmet)
         if self.row.checked_when is not None:
             self.setChecked(self.row.checked_when(self._window))
         if self.row.label_now is not None:
             self.setText(self.row.label_now(self._window))
 
-    def _set_tips(self, unmet: str) -> None:
+    def refresh_tip(self) -> None:
+        """Say in the tips why it cannot run, if that has changed."""
+        if self._unmet != self._unmet_in_tips:
+            self._set_tips()
+
+    def _set_tips(self) -> None:
+        self._unmet_in_tips = self._unmet
+        reason = f"Not now: {self._unmet}" if self._unmet else ""
+        self.setToolTip("\n".join(part for part in (self._heading, self.row.tip, reason) if part))
+        self.setStatusTip(" – ".join(part for part in (self.row.tip, reason) if part))
+
+    def _headed(self) -> str:
         keys = shortcut_text(self.row)
-        heading = self.row.plain_label + (f"  ({keys})" if keys else "")
-        reason = f"\nNot now: {unmet}" if unmet else ""
-        self.setToolTip(f"{heading}\n{self.row.tip}{reason}")
-        self.setStatusTip(self.row.tip + (f" – not now: {unmet}" if unmet else ""))
+        return self.row.plain_label + (f"  ({keys})" if keys else "")
 
 
 def key_sequences(shortcuts: Iterable[Shortcut]) -> list[QKeySequence]:
@@ -129,7 +144,25 @@ def make_menus(window: "MainWindow", submenus: Mapping[str, QMenu]) -> dict[str,
         if row.id in submenus:
             menu_of(row.menu).addMenu(submenus[row.id])
         menu_of(row.menu).addAction(window.actions_by_id[row.id])
+    for menu in menus.values():
+        give_mnemonics(menu)
     return menus
+
+
+def give_mnemonics(menu: QMenu) -> None:
+    """Give each entry without a mnemonic the first free letter, beginnings of words first."""
+    texts = [action.text().replace("&&", "") for action in menu.actions()]
+    taken = {text[text.index("&") + 1].lower() for text in texts if "&" in text}
+    for action in menu.actions():
+        text = action.text()
+        if not text or "&" in text:
+            continue
+        starts = [place for place in range(len(text)) if place == 0 or text[place - 1] == " "]
+        for place in (*starts, *range(len(text))):
+            if text[place].isalpha() and text[place].lower() not in taken:
+                taken.add(text[place].lower())
+                action.setText(f"{text[:place]}&{text[place:]}")
+                break
 
 
 def make_toolbar(window: "MainWindow") -> QToolBar:

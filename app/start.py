@@ -36,6 +36,7 @@ def start(path: str | None, skel: str | None, first_picture: FirstPicture | None
         QTimer.singleShot(0, window, partial(_fill, window, reports, path, skel, first_picture))
         code = app.exec()
         closer.end()
+        window.hide()  # ended without being closed; what is visible must not be torn down with Python half gone
         return code
     finally:
         reports.uninstall()

@@ -1,12 +1,14 @@
 """StatusRow: the bottom line of the window: transport, messages, what is selected, what the mouse does here."""
 
 from PySide6.QtCore import QSize, Qt, QTimer
-from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from widgets.guard import guarded
 
 MESSAGE_MILLISECONDS = 6000
+# Message, selection and hint are read comfortably in so many pixels.
+WIDTH_FOR_WORDS = 620
 
 
 class ElidedLabel(QLabel):
@@ -32,37 +34,58 @@ class ElidedLabel(QLabel):
 
 
 class StatusRow(QWidget):
-    """Left the transport, then a message that goes away by itself, then the selection, right the mouse hints."""
+    """The transport, then messages, the selection and mouse hints: beside it where there is room, else under it."""
 
     def __init__(self, transport: QWidget, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._transport = transport
         self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft)
         self.message.setObjectName("message")
         self.message.setAccessibleName("Message")
+        self.message.hide()  # leaves its room to the hint
         self.selection = QLabel()
         self.selection.setObjectName("selection_summary")
         self.selection.setTextFormat(Qt.TextFormat.PlainText)
         self.hint = ElidedLabel(Qt.AlignmentFlag.AlignRight)
         self.hint.setObjectName("mouse_hint")
         self.hint.setAccessibleName("What the mouse does here")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(4, 0, 6, 0)
-        row.setSpacing(12)
-        row.addWidget(transport)
-        row.addWidget(self.message, 2)
-        row.addWidget(self.selection)
-        row.addWidget(self.hint, 3)
+        line = QHBoxLayout()
+        line.setContentsMargins(8, 0, 8, 0)
+        line.setSpacing(16)
+        line.addWidget(self.message, 2)
+        line.addWidget(self.selection)
+        line.addWidget(self.hint, 3)
+        self._rows = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        self._rows.setContentsMargins(0, 0, 0, 0)
+        self._rows.setSpacing(2)
+        self._rows.addWidget(transport)
+        self._rows.addLayout(line, 1)
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
-        self._timer.timeout.connect(self.message.clear)
+        self._timer.timeout.connect(self._clear_message)
+
+    @guarded(QSize(0, 0))
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self._transport.minimumSizeHint().width(), super().minimumSizeHint().height())
+
+    @guarded()
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        beside = event.size().width() >= self._transport.sizeHint().width() + WIDTH_FOR_WORDS
+        directions = QBoxLayout.Direction
+        self._rows.setDirection(directions.LeftToRight if beside else directions.TopToBottom)
 
     def say(self, text: str, milliseconds: int = MESSAGE_MILLISECONDS) -> None:
         """Show *text* for a while; 0 keeps it until the next one."""
         self.message.setText(text)
+        self.message.setVisible(bool(text))
         if milliseconds and text:
             self._timer.start(milliseconds)
         else:
             self._timer.stop()
+
+    def _clear_message(self) -> None:
+        self.say("")
 
     def show_tip(self, text: str) -> None:
         """Show what the menu entry under the mouse does, as long as it is under it."""

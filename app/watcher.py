@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
+from shiboken6 import isValid
 
 from model.channel import Channel
 from model.labels import counted, keys_text
@@ -46,6 +47,8 @@ class Watcher(QObject):
         for panel in (window.tree, window.inspector, window.transport):
             panel.status.connect(window.say)
         window.tree.frame_requested.connect(self._frame)
+        window.tree.view.selectionModel().selectionChanged.connect(self._something_changed)
+        window.statusBar().messageChanged.connect(window.status.show_tip)
         Theme.current().theme_changed.connect(window.refresh_actions)
 
     def refresh(self) -> None:
@@ -66,11 +69,12 @@ class Watcher(QObject):
         in_gesture = self._window.document.gesture is not None
         if in_gesture != self._in_gesture:  # previews change nothing that an action asks about
             self._in_gesture = in_gesture
-            self.refresh()
+            self._window.actions_by_id["edit.undo"].refresh({})
 
     def _history_moved(self, *_place: object) -> None:
-        self._window.refresh_title()
-        self.refresh()
+        if isValid(self._window):  # the stack still tells that it is empty while Qt destroys it with the window
+            self._window.refresh_title()
+            self.refresh()
 
     def _frame(self, channel: Channel) -> None:
         """Show all of one channel."""

@@ -12,7 +12,7 @@ from app.crash_bar import CrashBar
 from app.crash_reports import log_path
 from app.file_menus import RecentMenu, SamplesMenu
 from app.files import Files
-from app.menus import make_actions, make_menus, make_toolbar
+from app.menus import make_actions, make_menus, make_toolbar, shortcut_text
 from app.questions import Questions
 from app.settings import LAYOUT_VERSION
 from app.shortcut_guard import ShortcutGuard
@@ -24,6 +24,7 @@ from model.document import Document
 from widgets.channel_tree import ChannelTree
 from widgets.curve_view import CurveView
 from widgets.key_inspector import KeyInspector
+from widgets.soon import Soon
 from widgets.theme import Theme
 from widgets.transport import Transport
 
@@ -32,7 +33,20 @@ if TYPE_CHECKING:
 
 # The layout before the user moved anything is kept in the window under this name.
 FIRST_LAYOUT_NAME = "first_layout"
-CHANNELS_WIDTH, KEY_WIDTH = 270, 270
+# Buttons of the transport and the actions that do the same.
+TRANSPORT_ACTIONS = {
+    "to_start": "play.start",
+    "previous_key": "play.previous_key",
+    "previous_frame": "play.previous_frame",
+    "play": "play.toggle",
+    "next_frame": "play.next_frame",
+    "next_key": "play.next_key",
+    "to_end": "play.end",
+    "stop": "play.stop",
+    "loop": "play.loop",
+}
+CHANNELS_WIDTH, INSPECTOR_WIDTH = 270, 270
+LEAST_HEIGHT = 420
 
 
 def assemble(window: "MainWindow", document: Document | None, opened: Opened | None) -> None:
@@ -42,13 +56,20 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
     elif opened is not None:
         document.replace(opened.clip)
     window.document, window.session = document, document.session
+    if window.session.active is None and document.clip.channels:
+        window.session.active = document.clip.channels[0]
     for name in ("snap", "reorder", "loop"):
         setattr(window.session, name, getattr(window.settings, name))
     window.questions = Questions(window)
     window.undo_stack = UndoStack(document, window)
     window.files = Files(window)
     _make_parts(window)
+    window.look_at_hand()
     window.actions_by_id = make_actions(window)
+    window.tips = Soon(window, window.refresh_tips)
+    window.transport.show_shortcuts(
+        {button: shortcut_text(window.actions_by_id[name].row) for button, name in TRANSPORT_ACTIONS.items()}
+    )
     window.menus = make_menus(window, {"file.name_channels": RecentMenu(window), "help.about": SamplesMenu(window)})
     make_toolbar(window)
     window.menuBar().setCornerWidget(FindCommandButton(window))
@@ -86,15 +107,18 @@ def _make_parts(window: "MainWindow") -> None:
     left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
     window.docks = {
         "channels": _dock(window, "channels", "Channels", window.tree, left),
-        "key": _dock(window, "key", "Key", window.inspector, right),
+        "inspector": _dock(window, "inspector", "Inspector", window.inspector, right),
         "history": _dock(window, "history", "Undo History", history, right),
     }
     window.docks["history"].hide()
     window.resizeDocks(
-        [window.docks["channels"], window.docks["key"]], [CHANNELS_WIDTH, KEY_WIDTH], Qt.Orientation.Horizontal
+        [window.docks["channels"], window.docks["inspector"]],
+        [CHANNELS_WIDTH, INSPECTOR_WIDTH],
+        Qt.Orientation.Horizontal,
     )
     bar = window.statusBar()
     bar.setSizeGripEnabled(False)
+    window.setMinimumSize(window.transport.minimumSizeHint().width() + 12, LEAST_HEIGHT)
     bar.addPermanentWidget(window.status, 1)
 
 

@@ -15,12 +15,7 @@ if TYPE_CHECKING:
     from app.main_window import MainWindow
 
 HIDDEN_CHANNELS = Need(lambda w: bool(w.session.hidden or w.session.solo), "every channel is shown")
-CHANNELS_IN_HAND = Need(lambda w: bool(channels_in_hand(w)), "no channel is active")
-
-
-def channels_in_hand(window: "MainWindow") -> list[Channel]:
-    """The channels chosen in the tree, else the active one."""
-    return window.tree.chosen()
+CHANNELS_IN_HAND = Need(lambda w: bool(w.in_hand.channels), "no channel is active")
 
 
 def _add(window: "MainWindow") -> None:
@@ -35,7 +30,7 @@ def _add(window: "MainWindow") -> None:
 
 
 def _remove(window: "MainWindow") -> None:
-    gone = channels_in_hand(window)
+    gone = window.in_hand.channels
     before = tuple(window.document.clip.channels)
     after = tuple(channel for channel in before if channel not in gone)
     window.document.do(f"Remove {channels_text(gone)}", lambda clip: [Membership(before, after)])
@@ -56,21 +51,21 @@ def _move(places: int, window: "MainWindow") -> None:
 
 
 def _all_locked(window: "MainWindow") -> bool:
-    channels = channels_in_hand(window)
+    channels = window.in_hand.channels
     return bool(channels) and all(channel.locked for channel in channels)
 
 
 def _toggle_lock(window: "MainWindow") -> None:
-    set_locked(window.document, channels_in_hand(window), not _all_locked(window))
+    set_locked(window.document, window.in_hand.channels, not _all_locked(window))
 
 
 def _all_angles(window: "MainWindow") -> bool:
-    channels = channels_in_hand(window)
+    channels = window.in_hand.channels
     return bool(channels) and all(channel.unit == "angle" for channel in channels)
 
 
 def _toggle_angle(window: "MainWindow") -> None:
-    channels, angle = channels_in_hand(window), not _all_angles(window)
+    channels, angle = window.in_hand.channels, not _all_angles(window)
     how = "in degrees" if angle else "as plain numbers"
     window.document.do(
         f"Show {channels_text(channels)} {how}", lambda clip: settings(channels, "unit", "angle" if angle else "")
@@ -78,14 +73,14 @@ def _toggle_angle(window: "MainWindow") -> None:
 
 
 def _choose_color(window: "MainWindow") -> None:
-    channels = channels_in_hand(window)
+    channels = window.in_hand.channels
     color = window.questions.color(QColor(channels[0].color or ""))
     if color.isValid():
         set_color(window.document, channels, color.name())
 
 
 def _drop_color(window: "MainWindow") -> None:
-    set_color(window.document, channels_in_hand(window), None)
+    set_color(window.document, window.in_hand.channels, None)
 
 
 def _step_active(places: int, window: "MainWindow") -> None:
@@ -132,7 +127,7 @@ CHANNEL_ACTIONS = (
         Action(
             id=f"channel.move_{way}",
             menu="Channel",
-            label=f"Move &{way.capitalize()}",
+            label=f"Move {way.capitalize()}",
             function=partial(_move, places),
             tip=f"Move the active channel one place {way} in the clip",
             needs=(AN_ACTIVE_CHANNEL,),
@@ -153,7 +148,7 @@ CHANNEL_ACTIONS = (
     Action(
         id="channel.angle",
         menu="Channel",
-        label="Show in &Degrees",
+        label="Show in Degrees",
         function=_toggle_angle,
         tip="Show the values of these channels, held in radians, as degrees",
         needs=(CHANNELS_IN_HAND,),
@@ -171,10 +166,10 @@ CHANNEL_ACTIONS = (
     Action(
         id="channel.no_color",
         menu="Channel",
-        label="Color by &Theme",
+        label="Color by Theme",
         function=_drop_color,
         tip="Let the theme choose the color of these channels",
-        needs=(Need(lambda w: any(c.color for c in channels_in_hand(w)), "the channel has no color of its own"),),
+        needs=(Need(lambda w: any(c.color for c in w.in_hand.channels), "the channel has no color of its own"),),
     ),
     Action(
         id="channel.hide",

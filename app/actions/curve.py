@@ -3,28 +3,21 @@
 from functools import partial
 from typing import TYPE_CHECKING
 
-from app.actions.channel import channels_in_hand
 from app.actions.popups import pop_up_menu
 from app.actions.row import Action, Need
 from model import edits
-from model.channel import Channel
 from model.extrapolation import EXTRAPOLATIONS, Extrapolation
 from model.labels import channels_text
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
 
-CURVES_IN_HAND = Need(lambda w: bool(curves_in_hand(w)), "no channel is active")
+CURVES_IN_HAND = Need(lambda w: bool(w.in_hand.curves), "no channel is active")
 SIDES = {"pre": "Before the First Key", "post": "After the Last Key"}
 
 
-def curves_in_hand(window: "MainWindow") -> list[Channel]:
-    """The channels of the selected keys; without selected keys those chosen in the tree, or the active one."""
-    return list(window.session.selection.channels) or channels_in_hand(window)
-
-
 def _set_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> None:
-    channels = curves_in_hand(window)
+    channels = window.in_hand.curves
     modes = {side: mode}
     window.document.do(
         f"Set {side} of {channels_text(channels)} to {mode.word.replace('_', ' ')}",
@@ -33,7 +26,7 @@ def _set_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> 
 
 
 def _has_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> bool:
-    channels = curves_in_hand(window)
+    channels = window.in_hand.curves
     return bool(channels) and all(getattr(channel, side) is mode for channel in channels)
 
 

@@ -72,7 +72,7 @@ FILE_ACTIONS = (
     Action(
         id="file.revert",
         menu="File",
-        label="&Revert to File…",
+        label="Re&vert to File…",
         function=lambda w: w.files.revert(),
         tip="Read the file again and drop the changes made since",
         needs=(HAS_A_FILE, DIFFERS_FROM_FILE),

@@ -76,7 +76,7 @@ KEY_ACTIONS = (
         Action(
             id=f"key.tool.{row.name}",
             menu="Key",
-            label=f"{row.label} Tool",
+            label=row.label,
             function=partial(_set_tool, row.name),
             shortcuts=(row.shortcut,),
             icon=row.icon,
@@ -108,10 +108,10 @@ KEY_ACTIONS = (
             begins_group=not size and name != "earlier",
         )
         for name, label, key, nudge, sign, where, step in (
-            ("earlier", "&Earlier", ",", _nudge_time, -1, "back", "frames"),
-            ("later", "&Later", ".", _nudge_time, +1, "on", "frames"),
-            ("up", "&Up", "Up", _nudge_value, +1, "up", "steps of 0.1, or of 1° for angles"),
-            ("down", "&Down", "Down", _nudge_value, -1, "down", "steps of 0.1, or of 1° for angles"),
+            ("earlier", "Earlier", ",", _nudge_time, -1, "back", "frames"),
+            ("later", "Later", ".", _nudge_time, +1, "on", "frames"),
+            ("up", "Up", "Up", _nudge_value, +1, "up", "steps of 0.1, or of 1° for angles"),
+            ("down", "Down", "Down", _nudge_value, -1, "down", "steps of 0.1, or of 1° for angles"),
         )
         for size, held, count, factor in NUDGES
     ),

@@ -64,7 +64,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.previous_frame",
         menu="Play",
-        label="&Previous Frame",
+        label="Previous Frame",
         function=lambda w: w.transport.step_frame(-1),
         shortcuts=("Left",),
         icon="previous-frame",
@@ -74,7 +74,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.next_frame",
         menu="Play",
-        label="&Next Frame",
+        label="Next Frame",
         function=lambda w: w.transport.step_frame(+1),
         shortcuts=("Right",),
         icon="next-frame",
@@ -83,7 +83,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.previous_key",
         menu="Play",
-        label="P&revious Key",
+        label="Previous Key",
         function=lambda w: w.transport.step_key(-1),
         shortcuts=("Ctrl+Left",),
         icon="previous-key",
@@ -93,7 +93,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.next_key",
         menu="Play",
-        label="N&ext Key",
+        label="Next Key",
         function=lambda w: w.transport.step_key(+1),
         shortcuts=("Ctrl+Right",),
         icon="next-key",
@@ -103,7 +103,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.start",
         menu="Play",
-        label="To Star&t of Range",
+        label="To Start of Range",
         function=lambda w: w.transport.to_start(),
         shortcuts=("Ctrl+Home",),
         icon="first",
@@ -113,7 +113,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.end",
         menu="Play",
-        label="To &End of Range",
+        label="To End of Range",
         function=lambda w: w.transport.to_end(),
         shortcuts=("Ctrl+End",),
         icon="last",
@@ -122,7 +122,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.range_start_here",
         menu="Play",
-        label="Range St&arts at Playhead",
+        label="Range Starts at Playhead",
         function=lambda w: _set_range(w, w.session.playhead, w.document.clip.end),
         tip="Let the range begin where the playhead is",
         begins_group=True,
@@ -130,14 +130,14 @@ PLAY_ACTIONS = (
     Action(
         id="play.range_end_here",
         menu="Play",
-        label="Range En&ds at Playhead",
+        label="Range Ends at Playhead",
         function=lambda w: _set_range(w, w.document.clip.start, w.session.playhead),
         tip="Let the range end where the playhead is",
     ),
     Action(
         id="play.range_selection",
         menu="Play",
-        label="Range from Se&lected Keys",
+        label="Range from Selected Keys",
         function=_range_to_selection,
         tip="Let the range reach from the first to the last selected key",
         needs=(SELECTED_KEYS,),
@@ -145,7 +145,7 @@ PLAY_ACTIONS = (
     Action(
         id="play.range_all",
         menu="Play",
-        label="Range from All &Keys",
+        label="Range from All Keys",
         function=_range_to_extent,
         tip="Let the range reach from the first to the last key of the clip",
         needs=(KEYS,),

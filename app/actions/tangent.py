@@ -1,21 +1,17 @@
 """Actions of the Tangent menu: rules, broken and unified tangents."""
 
-from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 from app.actions.popups import pop_up_menu
 from app.actions.row import SELECTED_KEYS, Action
 from model import edits
-from model.keyframe import Run, TangentRule
+from model.keyframe import TangentRule
 from model.labels import keys_text
-from model.selection import Selection
 from model.tangents import TANGENT_RULES
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
-
-type Rules = tuple[TangentRule | None, TangentRule | None]
 
 # In the order of the number keys.
 RULES = (
@@ -26,7 +22,6 @@ RULES = (
     TangentRule.STEP,
     TangentRule.AUTO,
 )
-MOST_KEYS_LOOKED_AT = 1000
 SIDES = {"in": "In Side Only", "out": "Out Side Only"}
 
 
@@ -39,22 +34,9 @@ def _set_rule(rule: TangentRule, side: str, window: "MainWindow") -> None:
     )
 
 
-def common_rules(selection: Selection) -> Rules:
-    """(rule in, rule out) that all selected keys share; None where they differ, or are too many to look at."""
-    if not selection or selection.count > MOST_KEYS_LOOKED_AT:
-        return None, None
-    runs = [channel.keys_of(selection.ids(channel)) for channel in selection.channels]
-    return _only_rule(runs, "rule_in"), _only_rule(runs, "rule_out")
-
-
-def _only_rule(runs: Sequence[Run], field: str) -> TangentRule | None:
-    rules = {int(rule) for run in runs for rule in run[field]}
-    return TangentRule(rules.pop()) if len(rules) == 1 else None
-
-
 def _rules_agree(rule: TangentRule, side: str, window: "MainWindow") -> bool:
     """Whether every selected key has *rule* on *side*; a step, which is on the out side only, counts as both."""
-    rule_in, rule_out = window.rules_in_hand
+    rule_in, rule_out = window.in_hand.rule_in, window.in_hand.rule_out
     if side == "both":
         return rule_out is rule and (rule_in is rule or rule is TangentRule.STEP)
     return (rule_in if side == "in" else rule_out) is rule

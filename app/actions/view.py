@@ -110,12 +110,12 @@ VIEW_ACTIONS = (
         for name, label, function, shortcut, tip in (
             ("zoom_in", "Zoom &In", partial(_zoom, ZOOM_STEP), "Ctrl++", "See less, larger"),
             ("zoom_out", "Zoom &Out", partial(_zoom, 1 / ZOOM_STEP), "Ctrl+-", "See more, smaller"),
-            ("pan_left", "See &Earlier", partial(_pan, PAN_STEP, 0.0), "Ctrl+Shift+Left", "Move the view back in time"),
-            ("pan_right", "See &Later", partial(_pan, -PAN_STEP, 0.0), "Ctrl+Shift+Right", "Move the view on in time"),
-            ("pan_up", "See &Higher", partial(_pan, 0.0, PAN_STEP), "Ctrl+Shift+Up", "Move the view to higher values"),
+            ("pan_left", "See Earlier", partial(_pan, PAN_STEP, 0.0), "Ctrl+Shift+Left", "Move the view back in time"),
+            ("pan_right", "See Later", partial(_pan, -PAN_STEP, 0.0), "Ctrl+Shift+Right", "Move the view on in time"),
+            ("pan_up", "See Higher", partial(_pan, 0.0, PAN_STEP), "Ctrl+Shift+Up", "Move the view to higher values"),
             (
                 "pan_down",
-                "See L&ower",
+                "See Lower",
                 partial(_pan, 0.0, -PAN_STEP),
                 "Ctrl+Shift+Down",
                 "Move the view to lower values",
@@ -133,7 +133,7 @@ VIEW_ACTIONS = (
         )
         for name, label, what in (
             ("channels", "&Channels", "tree of channels"),
-            ("key", "&Key", "numbers of the selected keys"),
+            ("inspector", "&Inspector", "numbers of the selected keys and their channel"),
             ("history", "Undo &History", "list of steps that can be taken back"),
         )
     ),
