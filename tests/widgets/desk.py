@@ -3,7 +3,7 @@
 from model.channel import Channel
 from model.clip import Clip
 from model.document import Document, Edit
-from model.keyframe import Run, make_run
+from model.keyframe import make_run
 from model.selection import Selection
 from tests.widgets.hand import Hand
 from widgets.curve_view import CurveView
@@ -54,9 +54,6 @@ class Desk:
     def keys(self) -> tuple[bytes, bytes]:
         """The bits of all keys: equal before and after means that nothing has happened."""
         return self.low.run().tobytes(), self.high.run().tobytes()
-
-    def row(self, channel: Channel, key_id: int) -> Run:
-        return channel.keys_of([key_id])[0]
 
 
 def beside(spot: tuple[float, float], dx: float = 0.0, dy: float = 0.0) -> tuple[float, float]:

@@ -12,6 +12,13 @@ Button = Qt.MouseButton
 Modifier = Qt.KeyboardModifier
 Cursor = Qt.CursorShape
 
+type Axes = tuple[bool, bool]  # time, value
+
+NO_AXIS: Axes = (False, False)
+TIME_AXIS: Axes = (True, False)
+VALUE_AXIS: Axes = (False, True)
+BOTH_AXES: Axes = (True, True)
+
 
 class Point(NamedTuple):
     """The pointer at one event: viewport pixels, the same in time and value, and what is held down."""
@@ -43,7 +50,10 @@ class Drag(Protocol):
     """One gesture of the mouse: made where it begins, moved, then finished or cancelled, and never used again."""
 
     cursor: ClassVar[Qt.CursorShape]
-    scrolls: ClassVar[bool]
+
+    @property
+    def scrolls(self) -> Axes:
+        """The axes along which the view follows at its edge."""
 
     @property
     def hint(self) -> str:
@@ -66,11 +76,15 @@ class EditDrag:
     """
 
     cursor: ClassVar[Qt.CursorShape] = Cursor.ClosedHandCursor
-    scrolls: ClassVar[bool] = True
 
     def __init__(self, graph: Graph, label: str) -> None:
         self.graph = graph
         self.gesture: Gesture = graph.document.begin(label)
+
+    @property
+    def scrolls(self) -> Axes:
+        """Both axes, unless the drag is about one."""
+        return BOTH_AXES
 
     def finish(self, point: Point) -> None:
         """Commit; a gesture that changed nothing leaves no undo step."""

@@ -8,14 +8,14 @@ from model.channel import Channel
 from model.labels import counted
 from model.selection import Selection
 from widgets.graph import Graph
-from widgets.tools.base import Cursor, Point
+from widgets.tools.base import BOTH_AXES, Cursor, Point
 
 
 class BoxSelect:
     """One box; plain it replaces the selection, with Shift it adds, with Ctrl it subtracts."""
 
     cursor: ClassVar[Qt.CursorShape] = Cursor.CrossCursor
-    scrolls: ClassVar[bool] = True
+    scrolls = BOTH_AXES
 
     def __init__(self, graph: Graph, start: Point, before: Selection) -> None:
         self.graph = graph

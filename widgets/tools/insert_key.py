@@ -9,14 +9,14 @@ from model.channel import Channel
 from model.document import added_keys
 from model.labels import short_name
 from widgets.graph import Graph
-from widgets.tools.base import Cursor, Point
+from widgets.tools.base import NO_AXIS, Cursor, Point
 
 
 class InsertKey:
     """The dot slides along the curve with the pointer; the key is inserted where the button goes up."""
 
     cursor: ClassVar[Qt.CursorShape] = Cursor.CrossCursor
-    scrolls: ClassVar[bool] = False
+    scrolls = NO_AXIS
 
     def __init__(self, graph: Graph, channel: Channel) -> None:
         self.graph = graph

@@ -8,7 +8,7 @@ from model.document import Change
 from model.keyframe import Keyframe
 from model.labels import counted
 from widgets.graph import Graph
-from widgets.tools.base import EditDrag, Point
+from widgets.tools.base import BOTH_AXES, TIME_AXIS, VALUE_AXIS, Axes, EditDrag, Point
 from widgets.tools.steering import Steering, time_text, value_text
 
 HINT = "Shift: lock axis · Ctrl: no snap · Alt: fine · Esc: cancel"
@@ -40,6 +40,11 @@ class MoveKeys(EditDrag):
 
         self.gesture.preview(moved, label=document.label_of("Move", selection, d_time, d_value))
         self.d_time, self.d_value = d_time, d_value
+
+    @property
+    def scrolls(self) -> Axes:
+        """Only along the axis that Shift has left free."""
+        return {"time": TIME_AXIS, "value": VALUE_AXIS}.get(self.steering.lock or "", BOTH_AXES)
 
     @property
     def hint(self) -> str:

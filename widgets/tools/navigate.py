@@ -7,7 +7,7 @@ from PySide6.QtGui import QNativeGestureEvent, QWheelEvent
 
 from widgets.graph import Graph
 from widgets.hit_test import EMPTY, Hit, Place, hit_ruler, place
-from widgets.tools.base import Button, Cursor, Drag, Modifier, Point, Tool
+from widgets.tools.base import NO_AXIS, Axes, Button, Cursor, Drag, Modifier, Point, Tool
 from widgets.tools.scrub import ChangeRange, Scrub
 
 # One notch of a wheel is 120 units; trackpads send fractions of it, so that the exponent makes both smooth.
@@ -24,7 +24,7 @@ class Pan:
     """The picture follows the hand."""
 
     cursor: ClassVar[Qt.CursorShape] = Cursor.ClosedHandCursor
-    scrolls: ClassVar[bool] = False
+    scrolls = NO_AXIS
     hint = "Pan the view"
 
     def __init__(self, graph: Graph, start: Point) -> None:
@@ -177,13 +177,12 @@ def pinched(graph: Graph, event: QNativeGestureEvent) -> bool:
     return True
 
 
-def edge_push(plot: QRectF, start: Point, spot: QPointF, scrolls: bool) -> tuple[float, float]:
+def edge_push(plot: QRectF, start: Point, spot: QPointF, scrolls: Axes) -> tuple[float, float]:
     """Pixels by which the view is to follow a drag held at its edge, this time; a drag begun there does not push."""
-    if not scrolls:
-        return 0.0, 0.0
+    time, value = scrolls
     return (
-        _push(spot.x(), start.x, plot.left(), plot.right()),
-        _push(spot.y(), start.y, plot.top(), plot.bottom()),
+        _push(spot.x(), start.x, plot.left(), plot.right()) if time else 0.0,
+        _push(spot.y(), start.y, plot.top(), plot.bottom()) if value else 0.0,
     )
 
 

@@ -14,7 +14,7 @@ from model.labels import counted
 from model.selection import Selection
 from widgets.graph import Frame, Graph
 from widgets.hit_test import RADIUS, Hit
-from widgets.tools.base import Cursor, Drag, EditDrag, Point
+from widgets.tools.base import Axes, Cursor, Drag, EditDrag, Point
 from widgets.tools.select import SelectTool
 from widgets.tools.steering import Steering
 
@@ -96,6 +96,11 @@ class ScaleKeys(EditDrag):
     def _amount(self, f_time: float, f_value: float) -> str:
         parts = ((self.axes[0], "time", f_time), (self.axes[1], "value", f_value))
         return "  ".join(f"{name} ×{factor:.3g}" for used, name, factor in parts if used)
+
+    @property
+    def scrolls(self) -> Axes:
+        """Only along the axes that are stretched."""
+        return self.axes
 
     @property
     def hint(self) -> str:

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from model.clip import Clip
 from model.document import Change, Setting
 from widgets.graph import Graph
-from widgets.tools.base import Cursor, EditDrag, Point
+from widgets.tools.base import TIME_AXIS, Axes, Cursor, EditDrag, Point
 from widgets.tools.steering import Steering
 
 
@@ -16,7 +16,7 @@ class Scrub:
     """The playhead follows the pointer; it is not part of the clip, so there is nothing to undo."""
 
     cursor: ClassVar[Qt.CursorShape] = Cursor.SplitHCursor
-    scrolls: ClassVar[bool] = True
+    scrolls = TIME_AXIS
 
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
@@ -69,6 +69,11 @@ class ChangeRange(EditDrag):
 
         self.gesture.preview(changed)
         self.after = time
+
+    @property
+    def scrolls(self) -> Axes:
+        """The range lies in time."""
+        return TIME_AXIS
 
     @property
     def hint(self) -> str:
