@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from model.channel import Channel
 from model.keyframe import TangentRule
 from tests.widgets.desk import Desk, beside
-from tests.widgets.hand import ALT, SHIFT
+from tests.widgets.hand import ALT, PLAIN, SHIFT
 from widgets.view_range import ViewRange
 
 
@@ -17,9 +17,7 @@ def handle(desk: Desk, channel: Channel, key_id: int, side: str) -> tuple[float,
     return end
 
 
-def turn(
-    desk: Desk, side: str, time: float, value: float, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier(0)
-) -> None:
+def turn(desk: Desk, side: str, time: float, value: float, modifiers: Qt.KeyboardModifier = PLAIN) -> None:
     """Drag a handle of key 3 of "low" so that its end lies at a time and a value."""
     desk.select(desk.low, 3)
     desk.hand.drag(handle(desk, desk.low, 3, side), desk.hand.spot_of(time, value), modifiers=modifiers)

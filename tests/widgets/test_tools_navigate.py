@@ -178,8 +178,8 @@ def test_scrubbing_stops_playing(desk: Desk) -> None:
 
 def test_the_view_scrolls_while_the_playhead_is_held_at_its_edge(desk: Desk) -> None:
     before = desk.view.view_range
-    desk.hand.press(ruler(desk, 4.0))
-    desk.hand.move((desk.view.plot_rect.right() + 10.0, ruler(desk, 4.0)[1]))
+    desk.hand.press(ruler(desk, 3.0))
+    desk.hand.move((desk.view.plot_rect.right() + 10.0, ruler(desk, 3.0)[1]))
     QTest.qWait(80)
     assert desk.view.view_range.t0 > before.t0
     assert desk.view.view_range[2:] == before[2:], "only time scrolls: the pointer is above the plot all along"
