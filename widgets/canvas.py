@@ -164,6 +164,8 @@ class Canvas(QGraphicsItem):
         """Finish the picture that is being refined, now."""
         while self._stage is not None and self.backdrop.busy:
             self._refine()
+            if self._stage is not None:
+                self.backdrop.prepare(self._stage)
 
     def _refine(self) -> None:
         if self._stage is None or not self.backdrop.busy:

@@ -29,9 +29,8 @@ def draw_value_ruler(painter: QPainter, stage: Stage) -> None:
     metrics = stage.metrics(LABEL_SIZE)
     y = np.floor(window.y_from_value(stage.value_ticks.major)) + 0.5
     painter.setPen(hair(theme.ruler_line))
-    draw_lines(
-        painter, np.stack((np.full(len(y), window.left - stage.px(4)), y, np.full(len(y), window.left), y), axis=1)
-    )
+    start, end = np.full(len(y), window.left - stage.px(4)), np.full(len(y), window.left - 1)
+    draw_lines(painter, np.stack((start, y, end, y), axis=1))
     painter.setPen(theme.ruler_text)
     half = metrics.capHeight() / 2
     for label, middle in zip(stage.value_ticks.labels, y.tolist(), strict=True):

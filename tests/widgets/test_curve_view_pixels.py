@@ -1,0 +1,214 @@
+"""No cache goes stale: painting strip by strip leaves the same pixels as painting everything."""
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtWidgets import QApplication
+
+from model import edits
+from model.channel import Channel
+from model.document import Edit
+from model.extrapolation import Extrapolation
+from model.keyframe import TangentRule
+from model.selection import Selection
+from tests.widgets.screens import Screen, sample_clip, view_of
+from widgets.curve_view import CurveView
+from widgets.hit_test import Hit
+from widgets.theme import Theme
+
+RATIOS: Final = (1.0, 1.5, 2.0)
+
+
+class User:
+    """Does one thing after another, at random."""
+
+    def __init__(self, view: CurveView, screen: Screen, seed: int) -> None:
+        self.view = view
+        self.screen = screen
+        self.document = view.document
+        self.session = view.document.session
+        self.rng = np.random.default_rng(seed)
+        self.done: list[Edit] = []
+        self.undone: list[Edit] = []
+        self.document.committed.connect(self.committed)
+
+    def committed(self, edit: Edit) -> None:
+        self.done.append(edit)
+        self.undone.clear()
+
+    def channel(self) -> Channel:
+        channels = [channel for channel in self.document.clip.channels if len(channel)]
+        return channels[int(self.rng.integers(len(channels)))]
+
+    def some_keys(self) -> Selection:
+        chosen = {}
+        for _ in range(int(self.rng.integers(1, 3))):
+            channel = self.channel()
+            ids = channel.run()["id"]
+            chosen[channel] = ids[self.rng.random(len(ids)) < 0.3]
+        return Selection.of(chosen)
+
+    def select(self) -> None:
+        self.session.selection = self.some_keys()
+
+    def activate(self) -> None:
+        self.session.active = self.channel() if self.rng.random() < 0.8 else None
+
+    def drag(self) -> None:
+        selection = self.session.selection if self.session.selection else self.some_keys()
+        gesture = self.document.begin("Move")
+        for _ in range(int(self.rng.integers(1, 5))):
+            d_time, d_value = (self.rng.normal(size=2) * (0.4, 1.0)).tolist()
+            gesture.preview(lambda clip, dt=d_time, dv=d_value: edits.move(clip, selection, dt, dv))
+            if self.rng.random() < 0.5:
+                self.screen.refresh()
+        if self.rng.random() < 0.3:
+            gesture.cancel()
+        elif self.rng.random() < 0.7:
+            gesture.commit()
+
+    def end_drag(self) -> None:
+        if self.document.gesture is not None:
+            self.document.gesture.commit()
+
+    def set_rule(self) -> None:
+        rule = TangentRule(int(self.rng.integers(6)))
+        selection = self.some_keys()
+        self.document.do("Rule", lambda clip: edits.set_rule(clip, selection, rule, "out"))
+
+    def turn_handle(self) -> None:
+        channel = self.channel()
+        key_id = int(self.rng.choice(channel.run()["id"]))
+        slope = float(self.rng.normal() * 4)
+        self.document.do("Turn", lambda clip: edits.set_slope(clip, channel, key_id, "out", slope))
+
+    def insert(self) -> None:
+        channel, time = self.channel(), float(self.rng.uniform(0, 3))
+        self.document.do("Insert", lambda clip: edits.insert(clip, channel, time))
+
+    def delete(self) -> None:
+        selection = self.some_keys()
+        if all(len(channel) > len(selection.ids(channel)) + 1 for channel in selection.channels):
+            self.document.do("Delete", lambda clip: edits.delete(clip, selection))
+
+    def extrapolate(self) -> None:
+        channel = self.channel()
+        mode = Extrapolation(int(self.rng.integers(5)))
+        self.document.do("Extrapolate", lambda clip: edits.set_extrapolation(clip, [channel], pre=mode))
+
+    def undo(self) -> None:
+        if self.done:
+            edit = self.done.pop()
+            self.document.apply(edit.inverse())
+            self.undone.append(edit)
+
+    def redo(self) -> None:
+        if self.undone:
+            edit = self.undone.pop()
+            self.document.apply(edit)
+            self.done.append(edit)
+
+    def hide(self) -> None:
+        self.session.hidden = {self.channel()} if self.rng.random() < 0.6 else set()
+
+    def lock(self) -> None:
+        channel = self.channel()
+        self.document.do("Lock", lambda clip: edits.set_setting(clip, [channel], "locked", not channel.locked))
+
+    def move_playhead(self) -> None:
+        self.session.playhead = float(self.rng.uniform(-0.5, 3.5))
+
+    def hover(self) -> None:
+        channel = self.channel()
+        run = channel.run()
+        key = run[int(self.rng.integers(len(run)))]
+        kind = str(self.rng.choice(["key", "curve", "handle_in", "empty"]))
+        self.view.set_hover(Hit(kind, channel, int(key["id"]), float(key["time"]), float(key["value"]), 1.0))
+
+    def draw_box(self) -> None:
+        corner = QPointF(*self.rng.uniform(0, 400, 2).tolist())
+        self.view.set_box(QRectF(corner, QPointF(*self.rng.uniform(0, 400, 2).tolist())))
+
+    def drop_box(self) -> None:
+        self.view.set_box(None)
+
+    def preview_insertion(self) -> None:
+        self.view.set_insert_preview(self.channel(), float(self.rng.uniform(0, 3)))
+
+    def drop_preview(self) -> None:
+        self.view.set_insert_preview(None, None)
+
+    def pan(self) -> None:
+        self.view.pan_pixels(*self.rng.normal(size=2).__mul__(60).tolist())
+
+    def zoom(self) -> None:
+        self.view.zoom(*self.rng.uniform(0.7, 1.5, 2).tolist(), QPointF(300, 200))
+
+    def frame(self) -> None:
+        self.view.frame_all()
+
+    def back(self) -> None:
+        self.view.view_back()
+
+    def change_theme(self) -> None:
+        app = QApplication.instance()
+        assert isinstance(app, QApplication)
+        Theme.current().apply(app, str(self.rng.choice(["dark", "light"])))
+
+
+ACTIONS: Final[tuple[Callable[[User], None], ...]] = (
+    User.select,
+    User.activate,
+    User.drag,
+    User.drag,
+    User.drag,
+    User.set_rule,
+    User.turn_handle,
+    User.insert,
+    User.delete,
+    User.extrapolate,
+    User.undo,
+    User.undo,
+    User.redo,
+    User.hide,
+    User.lock,
+    User.move_playhead,
+    User.hover,
+    User.draw_box,
+    User.drop_box,
+    User.preview_insertion,
+    User.drop_preview,
+    User.pan,
+    User.zoom,
+    User.frame,
+    User.back,
+    User.change_theme,
+)
+IN_A_GESTURE: Final = (User.end_drag, User.move_playhead, User.pan, User.hover, User.drop_preview)
+
+
+@pytest.mark.parametrize("slow", [False, True], ids=["at once", "in slices"])
+@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("seed", range(3))
+def test_strips_leave_the_pixels_of_a_full_repaint(
+    qtbot: object, monkeypatch: pytest.MonkeyPatch, seed: int, ratio: float, slow: bool
+) -> None:
+    if slow:  # every picture is previewed first, and finished in slices
+        monkeypatch.setattr("widgets.backdrop.QUICK", -1.0)
+    view = view_of(sample_clip(seed))
+    screen = Screen(view, ratio)
+    user = User(view, screen, seed)
+    told = []
+    for step in range(60):
+        actions = ACTIONS if user.document.gesture is None else IN_A_GESTURE
+        action = actions[int(user.rng.integers(len(actions)))]
+        told.append(action.__name__)
+        action(user)
+        if user.rng.random() < 0.5:
+            shown = screen.shown()
+            wrong = int((shown != screen.painted_anew()).sum())
+            assert wrong == 0, f"{wrong} pixels are stale after step {step}: {told[-12:]}"
+    view.close()
