@@ -24,7 +24,7 @@ def channel_menu(tree: "ChannelTree", channels: Sequence[Channel]) -> QMenu:
     """What can be done to these channels."""
     document, session, theme = tree.document, tree.document.session, tree.theme
     menu = QMenu(tree)
-    menu.setToolTipsVisible(True)
+    menu.aboutToHide.connect(menu.deleteLater)
 
     def add(text: str, icon: str, act: Callable[[], object]) -> None:
         menu.addAction(theme.icon(icon), text, act)

@@ -222,6 +222,6 @@ class ChannelTree(QWidget):
     def _enter_rows(self) -> None:
         """Go from the filter to the first channel found."""
         rows = self.view.rows
-        self.view.setFocus(Qt.FocusReason.TabFocusReason)
-        if rows.groups and not self.view.currentIndex().isValid():
+        if rows.groups and rows.channel_of(self.view.currentIndex()) is None:
             self.view.setCurrentIndex(rows.index_of(rows.groups[0].channels[0]))
+        self.view.setFocus(Qt.FocusReason.TabFocusReason)

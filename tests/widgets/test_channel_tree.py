@@ -1,0 +1,380 @@
+"""Channels are found, chosen, shown, locked, soloed, renamed and coloured by mouse and keyboard."""
+
+import time
+
+import pytest
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QContextMenuEvent, QKeyEvent
+from PySide6.QtTest import QAbstractItemModelTester, QSignalSpy, QTest
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
+
+from model.channel import Channel
+from model.clip import Clip
+from model.document import Document, Membership, Splice
+from model.keyframe import make_run
+from widgets.channel_cells import ChannelCells
+from widgets.channel_rows import ChannelRows, Column
+from widgets.channel_tree import ChannelTree
+from widgets.channel_view import ChannelView
+from widgets.guard import unguarded
+from widgets.theme import Theme
+
+Key = Qt.Key
+Left = Qt.MouseButton.LeftButton
+NAMES = ("root.tx", "root.ty", "root.tz", "blink", "head.rx", "head.ry")
+
+
+@pytest.fixture
+def document():
+    channels = [Channel(name, make_run([0, 1], [rank, rank + 1])) for rank, name in enumerate(NAMES)]
+    channels[4].unit = "angle"
+    return Document(Clip(channels, end=1))
+
+
+@pytest.fixture
+def tree(qtbot, document):
+    widget = ChannelTree(document, Theme("dark"))
+    qtbot.addWidget(widget)
+    widget.resize(300, 400)
+    widget.show()
+    widget.activateWindow()
+    qtbot.waitUntil(widget.isActiveWindow)
+    return widget
+
+
+@pytest.fixture
+def edits(document):
+    seen = []
+    document.committed.connect(seen.append)
+    return seen
+
+
+def channel(tree, name):
+    return tree.document.clip.channel(name)
+
+
+def center(tree, name, column=Column.NAME):
+    return tree.view.visualRect(tree.view.rows.index_of(channel(tree, name), column)).center()
+
+
+def group_center(tree, row, column=Column.NAME):
+    return tree.view.visualRect(tree.view.rows.index(row, column)).center()
+
+
+def click(tree, where, modifiers=Qt.KeyboardModifier.NoModifier):
+    QTest.mouseClick(tree.view.viewport(), Left, modifiers, where)
+
+
+def shown_texts(tree):
+    """Every row as a person reads it, from top to bottom."""
+    rows, texts = tree.view.rows, []
+    for row in range(rows.rowCount()):
+        index = rows.index(row, 0)
+        texts.append(rows.data(index))
+        texts += ["  " + rows.data(rows.index(child, 0, index)) for child in range(rows.rowCount(index))]
+    return texts
+
+
+def names(channels):
+    return [channel.name for channel in channels]
+
+
+def test_channels_stand_in_the_groups_that_their_names_tell(tree):
+    assert shown_texts(tree) == ["root", "  tx", "  ty", "  tz", "blink", "head", "  rx", "  ry"]
+    assert all(tree.view.isExpanded(tree.view.rows.index(row, 0)) for row in (0, 2))
+
+
+def test_the_rows_are_a_sound_model_for_qt(tree, document, qtbot):
+    QAbstractItemModelTester(tree.view.rows, QAbstractItemModelTester.FailureReportingMode.QtTest)
+    tree.filter.setText("r")
+    document.replace(Clip([Channel("a.b.c"), Channel("d")]))
+    assert shown_texts(tree) == ["a.b", "  c", "d"]
+
+
+def test_a_click_makes_the_channel_active_and_chosen(tree, document):
+    click(tree, center(tree, "root.ty"))
+    assert document.session.active is channel(tree, "root.ty")
+    assert names(tree.chosen()) == ["root.ty"]
+    click(tree, center(tree, "head.rx"), Qt.KeyboardModifier.ControlModifier)
+    assert names(tree.chosen()) == ["root.ty", "head.rx"]
+    assert document.session.active is channel(tree, "head.rx")
+
+
+def test_a_chosen_group_stands_for_its_channels(tree):
+    click(tree, group_center(tree, 2))
+    assert names(tree.chosen()) == ["head.rx", "head.ry"]
+
+
+def test_the_active_channel_is_chosen_wherever_it_was_activated(tree, document):
+    document.session.active = channel(tree, "head.ry")
+    assert names(tree.chosen()) == ["head.ry"]
+    click(tree, center(tree, "root.tx"))
+    click(tree, center(tree, "root.ty"), Qt.KeyboardModifier.ControlModifier)
+    document.session.active = channel(tree, "root.tx")
+    assert names(tree.chosen()) == ["root.tx", "root.ty"]
+
+
+def test_the_filter_finds_all_words_in_the_full_name_in_any_case(tree):
+    tree.focus_filter()
+    QTest.keyClicks(tree.filter, "X oo")
+    assert shown_texts(tree) == ["root", "  tx"]
+    QTest.keyClick(tree.filter, Key.Key_Escape)
+    assert len(shown_texts(tree)) == 8
+
+
+def test_from_the_filter_the_down_key_goes_to_what_was_found(tree, document):
+    tree.focus_filter()
+    QTest.keyClicks(tree.filter, "head")
+    QTest.keyClick(tree.filter, Key.Key_Down)
+    assert tree.view.hasFocus()
+    assert document.session.active is channel(tree, "head.rx")
+
+
+def test_chosen_channels_and_folds_outlive_the_filter(tree):
+    click(tree, center(tree, "head.rx"))
+    tree.view.collapse(tree.view.rows.index(0, 0))
+    tree.filter.setText("r")
+    assert tree.view.isExpanded(tree.view.rows.index(0, 0))
+    tree.filter.clear()
+    assert not tree.view.isExpanded(tree.view.rows.index(0, 0))
+    assert tree.view.isExpanded(tree.view.rows.index(2, 0))
+    assert names(tree.chosen()) == ["head.rx"]
+
+
+def test_the_eye_hides_and_shows_a_channel_and_chooses_nothing(tree, document, edits):
+    click(tree, center(tree, "root.ty", Column.SHOW))
+    assert not document.session.shown(channel(tree, "root.ty"))
+    assert document.session.active is None
+    click(tree, center(tree, "root.ty", Column.SHOW))
+    assert document.session.shown(channel(tree, "root.ty"))
+    assert not edits
+
+
+def test_the_eye_of_a_group_acts_on_all_its_channels(tree, document):
+    click(tree, center(tree, "root.ty", Column.SHOW))
+    click(tree, group_center(tree, 0, Column.SHOW))
+    assert not document.session.hidden
+    click(tree, group_center(tree, 0, Column.SHOW))
+    assert {c.name for c in document.session.hidden} == {"root.tx", "root.ty", "root.tz"}
+
+
+def test_dragging_over_eyes_gives_all_the_state_of_the_first(tree, document):
+    click(tree, center(tree, "root.ty", Column.SHOW))
+    viewport = tree.view.viewport()
+    QTest.mousePress(viewport, Left, pos=center(tree, "root.tx", Column.SHOW))
+    for name in ("root.ty", "root.tz", "blink"):
+        QTest.mouseMove(viewport, center(tree, name, Column.SHOW))
+    QTest.mouseRelease(viewport, Left, pos=center(tree, "blink", Column.SHOW))
+    assert {c.name for c in document.session.hidden} == {"root.tx", "root.ty", "root.tz", "blink"}
+
+
+def test_dragging_over_locks_is_one_undo_step(tree, document, edits):
+    viewport = tree.view.viewport()
+    QTest.mousePress(viewport, Left, pos=center(tree, "root.tx", Column.LOCK))
+    QTest.mouseMove(viewport, center(tree, "root.ty", Column.LOCK))
+    assert channel(tree, "root.ty").locked
+    QTest.mouseRelease(viewport, Left, pos=center(tree, "root.ty", Column.LOCK))
+    assert [edit.label for edit in edits] == ["Lock 2 channels"]
+    document.apply(edits[0].inverse())
+    assert not any(c.locked for c in document.clip.channels)
+
+
+def test_solo_shows_only_the_marked_channels(tree, document):
+    click(tree, center(tree, "blink", Column.SOLO))
+    assert names(document.session.shown_channels(document.clip)) == ["blink"]
+    click(tree, center(tree, "blink", Column.SOLO))
+    assert len(document.session.shown_channels(document.clip)) == 6
+
+
+def test_hide_only_these_and_reveal_act_on_the_chosen(tree, document):
+    click(tree, group_center(tree, 2))
+    tree.hide_chosen()
+    assert names(document.session.shown_channels(document.clip)) == ["root.tx", "root.ty", "root.tz", "blink"]
+    tree.reveal_all()
+    tree.show_only_chosen()
+    assert names(document.session.shown_channels(document.clip)) == ["head.rx", "head.ry"]
+    tree.reveal_all()
+    assert len(document.session.shown_channels(document.clip)) == 6
+
+
+def test_f2_renames_in_place_and_undo_brings_the_old_name_back(tree, document, edits, qtbot):
+    click(tree, center(tree, "root.ty"))
+    QTest.keyClick(tree.view, Key.Key_F2)
+    editor = tree.view.findChild(QLineEdit)
+    assert editor.text() == "root.ty"
+    editor.selectAll()
+    QTest.keyClicks(editor, "hip.ty")
+    QTest.keyClick(editor, Key.Key_Return)
+    qtbot.waitUntil(lambda: document.clip.channels[1].name == "hip.ty")
+    assert shown_texts(tree)[:5] == ["root", "  tx", "  tz", "hip", "  ty"]
+    document.apply(edits[0].inverse())
+    assert shown_texts(tree)[:3] == ["root", "  tx", "  ty"]
+
+
+def test_renaming_a_group_renames_all_its_channels_in_one_step(tree, document, edits, qtbot):
+    click(tree, group_center(tree, 0))
+    tree.rename_chosen()
+    editor = tree.view.findChild(QLineEdit)
+    editor.selectAll()
+    QTest.keyClicks(editor, "hip")
+    QTest.keyClick(editor, Key.Key_Return)
+    qtbot.waitUntil(lambda: names(document.clip.channels)[:3] == ["hip.tx", "hip.ty", "hip.tz"])
+    assert len(edits) == 1
+
+
+@pytest.mark.parametrize("text", ["root.tx", "  ", "hip.", "a\tb"])
+def test_a_name_that_cannot_be_is_refused_in_words(tree, edits, text):
+    spy = QSignalSpy(tree.status)
+    index = tree.view.rows.index_of(channel(tree, "root.ty"))
+    assert not tree.view.rows.setData(index, text, Qt.ItemDataRole.EditRole)
+    assert spy.count() == 1
+    assert not edits
+
+
+def test_arrow_keys_reach_the_icons_and_space_turns_them(tree, document):
+    click(tree, center(tree, "root.tx"))
+    for key in (Key.Key_Right, Key.Key_Right, Key.Key_Space):
+        QTest.keyClick(tree.view, key)
+    assert channel(tree, "root.tx").locked
+    for key in (Key.Key_Left, Key.Key_Space, Key.Key_Left, Key.Key_Down):
+        QTest.keyClick(tree.view, key)
+    assert channel(tree, "root.tx") in document.session.hidden
+    assert document.session.active is channel(tree, "root.ty")
+
+
+@pytest.mark.parametrize(
+    ("key", "column", "own"),
+    [
+        (Key.Key_Up, Column.NAME, True),
+        (Key.Key_Home, Column.NAME, True),
+        (Key.Key_Space, Column.NAME, False),
+        (Key.Key_Space, Column.SHOW, True),
+        (Key.Key_H, Column.NAME, False),
+    ],
+)
+def test_the_tree_keeps_the_keys_it_needs_from_the_shortcuts_of_the_window(tree, key, column, own):
+    tree.view.setCurrentIndex(tree.view.rows.index_of(channel(tree, "root.tx"), column))
+    event = QKeyEvent(QEvent.Type.ShortcutOverride, key, Qt.KeyboardModifier.NoModifier)
+    event.ignore()
+    QApplication.sendEvent(tree.view, event)
+    assert event.isAccepted() == own
+
+
+def test_a_double_click_and_enter_ask_to_frame_the_channel(tree):
+    spy = QSignalSpy(tree.frame_requested)
+    QTest.mouseDClick(tree.view.viewport(), Left, pos=center(tree, "root.ty"))
+    click(tree, center(tree, "head.rx"))
+    QTest.keyClick(tree.view, Key.Key_Return)
+    assert [spy.at(i)[0].name for i in range(spy.count())] == ["root.ty", "head.rx"]
+
+
+def test_values_at_the_playhead_are_shown_in_the_channels_unit(tree, document):
+    rows = tree.view.rows
+    document.session.playhead = 1.0
+    assert rows.data(rows.index_of(channel(tree, "root.ty"), Column.VALUE)) == "2.000"
+    assert rows.data(rows.index_of(channel(tree, "head.rx"), Column.VALUE)) == "286.48°"
+
+
+def value_pixels(tree, name):
+    rect = tree.view.visualRect(tree.view.rows.index_of(channel(tree, name), Column.VALUE))
+    image = tree.view.viewport().grab(rect).toImage()
+    return bytes(image.constBits())
+
+
+def test_only_values_that_read_differently_are_painted_again_and_they_are_right(tree, document, qtbot, monkeypatch):
+    flat = document.clip.channel("blink")
+    document.do("Flat", lambda clip: [_flattened(flat)])
+    qtbot.wait(50)
+    document.session.playhead = 0.4
+    qtbot.wait(50)
+    painted = []
+    paint = tree.view.cells.paint_values
+    monkeypatch.setattr(tree.view.cells, "paint_values", lambda *a: (painted.append(len(a[3])), paint(*a)))
+    document.session.playhead = 0.5
+    qtbot.waitUntil(lambda: bool(painted))
+    assert painted == [5]
+    half = value_pixels(tree, "root.tx")
+    document.session.playhead = 0.0
+    qtbot.wait(50)
+    assert value_pixels(tree, "root.tx") != half
+    document.session.playhead = 0.5
+    qtbot.wait(50)
+    assert value_pixels(tree, "root.tx") == half
+
+
+def _flattened(channel):
+    run = channel.run()
+    after = run.copy()
+    after["value"] = 7.0
+    return Splice(channel, run, after)
+
+
+def test_a_value_painted_alone_looks_like_one_painted_with_all(tree, document):
+    click(tree, center(tree, "root.ty"))
+    tree.view.update_values()
+    rect = tree.view.visualRect(tree.view.rows.index_of(channel(tree, "root.ty"), Column.VALUE))
+    alone = tree.view.viewport().grab(rect).toImage()
+    whole = tree.view.viewport().grab().toImage().copy(rect)
+    assert alone == whole
+
+
+def test_colours_come_from_the_menu_and_can_be_undone(tree, document, edits, monkeypatch):
+    opened = []
+    monkeypatch.setattr(QMenu, "popup", lambda menu, where: opened.append(menu))
+    click(tree, center(tree, "root.ty"))
+    where = center(tree, "root.ty")
+    QApplication.sendEvent(
+        tree.view.viewport(),
+        QContextMenuEvent(QContextMenuEvent.Reason.Mouse, where, tree.view.viewport().mapToGlobal(where)),
+    )
+    color = next(a.menu() for a in opened[0].actions() if a.text() == "Color")
+    next(a for a in color.actions() if a.text() == "Amber").trigger()
+    assert channel(tree, "root.ty").color == "#f2b01e"
+    assert [edit.label for edit in edits] == ["Color root.ty"]
+
+
+def test_an_edit_keeps_folds_choice_and_place(tree, document, qtbot):
+    document.replace(Clip([Channel(f"g{i // 10}.c{i}", make_run([0], [i])) for i in range(500)]))
+    tree.view.collapse(tree.view.rows.index(0, 0))
+    tree.view.choose([document.clip.channels[205], document.clip.channels[207]])
+    tree.view.verticalScrollBar().setValue(700)
+    before = tuple(document.clip.channels)
+    document.do("Remove", lambda clip: [Membership(before, before[:-1])])
+    assert tree.view.verticalScrollBar().value() == 700
+    assert names(tree.chosen()) == ["g20.c205", "g20.c207"]
+    assert not tree.view.isExpanded(tree.view.rows.index(0, 0))
+
+
+def test_an_empty_clip_says_what_to_do(tree, document, qtbot):
+    document.replace(Clip())
+    assert "Open a clip" in tree.view.empty_text
+    blank = tree.view.viewport().grab().toImage()
+    colors = {blank.pixelColor(x, blank.height() // 2 + y).name() for x in range(280) for y in range(-30, 30)}
+    assert len(colors) > 2
+    document.replace(Clip([Channel("a")]))
+    tree.filter.setText("zzz")
+    assert "zzz" in tree.view.empty_text
+
+
+def test_thousands_of_channels_are_listed_and_filtered_at_once(tree, document):
+    document.replace(Clip([Channel(f"joint{i // 3}.r{'xyz'[i % 3]}", make_run([0], [0])) for i in range(3000)]))
+    start = time.perf_counter()
+    tree.filter.setText("99 x")
+    tree.filter.clear()
+    assert time.perf_counter() - start < 0.5
+
+
+def test_icons_are_words_for_a_screen_reader(tree, document):
+    rows = tree.view.rows
+    index = rows.index_of(channel(tree, "root.tx"), Column.SHOW)
+    assert rows.data(index, Qt.ItemDataRole.AccessibleTextRole) == "shown"
+    click(tree, center(tree, "root.tx", Column.SHOW))
+    assert rows.data(index, Qt.ItemDataRole.AccessibleTextRole) == "hidden"
+    assert rows.data(rows.index(0, Column.SHOW), Qt.ItemDataRole.AccessibleTextRole) == "some shown"
+    assert tree.view.accessibleName() == "Channels"
+    assert tree.filter.accessibleName()
+
+
+def test_every_override_is_guarded():
+    for cls in (ChannelTree, ChannelView, ChannelCells, ChannelRows):
+        assert unguarded(cls) == []
