@@ -122,7 +122,8 @@ class Transport(QWidget):
         """Name the shortcuts, as people read them, in the tooltips of the buttons of these names."""
         for name, text in shortcuts.items():
             button = self.buttons[name]
-            button.setToolTip(f"{button.accessibleName()}  ({text})" if text else button.accessibleName())
+            label = button.toolTip().partition("  (")[0]
+            button.setToolTip(f"{label}  ({text})" if text else label)
 
     # --- making
 
