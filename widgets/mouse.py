@@ -51,11 +51,30 @@ class MouseRouter(QObject):
         self._modifiers = Modifier.NoModifier
         self._edge = QTimer(self, interval=EDGE_INTERVAL)
         self._edge.timeout.connect(self._scroll)
-        session = graph.document.session
-        session.option_changed.connect(self._option_changed)
-        graph.document.clip_replaced.connect(self.cancel)
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._later.timeout.connect(self._refresh)
         self._shown = self.tool
         self._shown.showing(True)
+        self._listen()
+
+    def _listen(self) -> None:
+        document, session = self.graph.document, self.graph.document.session
+        session.option_changed.connect(self._option_changed)
+        session.selection_changed.connect(self._stale)
+        document.clip_replaced.connect(self.cancel)
+        document.changed.connect(self._stale)
+        self.graph.view_changed.connect(self._stale)
+        self.graph.viewport().destroyed.connect(self.forget)
+
+    def forget(self) -> None:
+        """Stop listening to the document: the view is gone, and the document may live on."""
+        document, session = self.graph.document, self.graph.document.session
+        session.option_changed.disconnect(self._option_changed)
+        session.selection_changed.disconnect(self._stale)
+        document.clip_replaced.disconnect(self.cancel)
+        document.changed.disconnect(self._stale)
+        if document.gesture is not None and self.busy:
+            document.gesture.cancel()
 
     @property
     def tool(self) -> Tool:
@@ -223,6 +242,14 @@ class MouseRouter(QObject):
         if hint != self._hint:
             self._hint = hint
             self.hint_changed.emit(hint)
+
+    def _stale(self, *_: object) -> None:
+        if not self._later.isActive():
+            self._later.start()
+
+    @guarded()
+    def _refresh(self) -> None:
+        self._shown.refresh()
 
     def _option_changed(self, name: str) -> None:
         if name == "tool":

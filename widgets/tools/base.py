@@ -167,3 +167,6 @@ class Tool:
 
     def showing(self, shown: bool) -> None:
         """The tool was chosen, or another one was: show or take away what it draws."""
+
+    def refresh(self) -> None:
+        """The view, the selection or a channel has changed: draw again what the tool draws."""

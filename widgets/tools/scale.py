@@ -5,7 +5,7 @@ from math import copysign, hypot
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt, QTimer
+from PySide6.QtCore import QPointF, QRectF, Qt
 
 from model import edits
 from model.clip import Clip
@@ -116,11 +116,6 @@ class ScaleTool(SelectTool):
     def __init__(self, graph: Graph) -> None:
         super().__init__(graph)
         self._shown = False
-        self._later = QTimer(graph.viewport(), singleShot=True, interval=0)
-        self._later.timeout.connect(self._draw)
-        graph.document.changed.connect(self._stale)
-        self.session.selection_changed.connect(self._stale)
-        graph.view_changed.connect(self._stale)
 
     # What is scaled
 
@@ -210,18 +205,15 @@ class ScaleTool(SelectTool):
     def showing(self, shown: bool) -> None:
         """Draw the box while the tool is chosen."""
         self._shown = shown
-        self._draw()
+        self.refresh()
 
     def drag(self, point: Point) -> None:
         """Keep the box around the keys while they are stretched."""
         super().drag(point)
-        self._draw()
+        self.refresh()
 
-    def _stale(self, *_: object) -> None:
-        if self._shown:
-            self._later.start()
-
-    def _draw(self) -> None:
+    def refresh(self) -> None:
+        """Draw the box where the keys are now."""
         frame = self.frame() if self._shown else None
         if frame is None:
             self.graph.set_frame(None)

@@ -65,6 +65,13 @@ def value_text(channel: Channel | None, d_value: float) -> str:
     return f"{_signed(d_value)}{unit}"
 
 
+def slope_text(channel: Channel, slope: float) -> str:
+    """A slope in the unit the channel shows, as "2.5 m/s"."""
+    if channel.unit == "angle":
+        return f"{degrees(slope):.4g}°/s"
+    return f"{slope:.4g} {channel.unit}/s" if channel.unit else f"{slope:.4g}/s"
+
+
 def _signed(number: float) -> str:
     if abs(number) < 1e-9:
         return "+0.00"

@@ -10,7 +10,7 @@ from model.clip import Clip
 from model.document import Change
 from widgets.graph import Graph
 from widgets.tools.base import EditDrag, Point
-from widgets.tools.steering import Steering
+from widgets.tools.steering import Steering, slope_text
 
 
 class TurnHandle(EditDrag):
@@ -53,7 +53,8 @@ class TurnHandle(EditDrag):
     @property
     def hint(self) -> str:
         """The slope now."""
-        return f"slope {self.slope:.4g} · Shift: flat, chord or as it was · Alt: fine · Esc: cancel"
+        slope = slope_text(self.channel, self.slope)
+        return f"slope {slope} · Shift: flat, chord or as it was · Alt: fine · Esc: cancel"
 
     def _side(self, d_time: float) -> float:
         """*d_time* kept on the handle's own side, a pixel away from the key at least."""
