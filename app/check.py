@@ -2,6 +2,8 @@
 
 import os
 import platform
+import sys
+import threading
 from importlib.metadata import version
 from pathlib import Path
 from time import perf_counter
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from app.main_window import MainWindow
 
 PACKAGES = ("PySide6-Essentials", "pyqtgraph", "numpy")
+LONGEST_WAIT = 60.0
 
 
 def process_age() -> float | None:
@@ -29,9 +32,16 @@ def process_age() -> float | None:
 
 
 def run_check(path: str | None, skel: str | None, started: float) -> int:
-    """Open the clip at *path*, draw it once and close; *started* is when main.py began (perf_counter)."""
+    """Open the clip at *path*, draw it once and close; *started* is when main.py began (perf_counter).
+
+    When no picture comes, because something failed or hangs, the process ends with 1 after LONGEST_WAIT seconds.
+    """
+    watchdog = threading.Timer(LONGEST_WAIT, give_up)
+    watchdog.daemon = True
+    watchdog.start()
 
     def first_picture(window: "MainWindow") -> None:
+        watchdog.cancel()
         age = process_age() or perf_counter() - started
         clip = window.document.clip
         screen = window.screen()
@@ -43,4 +53,13 @@ def run_check(path: str | None, skel: str | None, started: float) -> int:
         print(f"first picture {age:.2f} s after the start")
         QApplication.exit(0)
 
-    return run_window(path, skel, first_picture=first_picture)
+    try:
+        return run_window(path, skel, first_picture=first_picture)
+    finally:
+        watchdog.cancel()
+
+
+def give_up() -> None:
+    """End the process at once: the event loop may be what hangs."""
+    print(f"no picture within {LONGEST_WAIT:g} s", file=sys.stderr, flush=True)
+    os._exit(1)

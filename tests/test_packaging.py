@@ -77,5 +77,5 @@ def test_the_installed_command_tells_its_version_and_reads_a_clip(
 
 
 def test_the_installed_window_opens_and_draws(installed: tuple[Path, set[str]], tmp_path: Path) -> None:
-    assert "8 channels, 50 keys" in done(installed[0] / "hermite", "--check", SAMPLE, cwd=tmp_path)
-    assert "8 channels, 50 keys" in done(installed[0] / "python", "-m", "hermite_editor", "--check", cwd=tmp_path)
+    assert "8 channels, 51 keys" in done(installed[0] / "hermite", "--check", SAMPLE, cwd=tmp_path)
+    assert "8 channels, 51 keys" in done(installed[0] / "python", "-m", "hermite_editor", "--check", cwd=tmp_path)

@@ -78,7 +78,7 @@ def bounce() -> Clip:
             curve("stage.belt", {0.0: -2.8, 0.8: -2.2, 1.2: -2.2}, LINEAR, CYCLE_OFFSET, CYCLE_OFFSET, unit="m"),
             curve("stage.lamp", {0.0: -1.0, 0.6: -0.6, 0.9: -1.0, 1.0: -0.6, 1.1: -1.0, 1.6: -1.0}, STEP, CYCLE, CYCLE),
             loop("stage.fan", {0.0: -3.4, 0.4: -2.9, 1.1: -3.9, 1.5: -3.4}),
-            curve("camera.tx", {0.4: -1.8, 2.0: 0.2, 4.0: 0.6}, FLAT, CONSTANT, ONWARD, unit="m"),
+            curve("camera.tx", {0.4: -1.8, 2.0: 0.2, 4.0: 0.6}, FLAT, CONSTANT, ONWARD, unit="m", color="#3f8fc4"),
             curve("camera.roll", {0.0: 2.2, 1.1: 2.5, 2.2: 1.9}, SMOOTH, BOUNCE, BOUNCE),
         ],
         start=0.0,
@@ -91,10 +91,13 @@ def bounce() -> Clip:
 def rules() -> Clip:
     """The same five keys by every tangent rule, and one short wave by every extrapolation, one above the other."""
     channels = []
-    for row, rule in enumerate((AUTO, SMOOTH, LINEAR, FLAT, STEP, FIXED)):
+    for row, rule in enumerate((AUTO, SMOOTH, LINEAR, FLAT, STEP)):
         low = 10.0 - 1.5 * row
         keys = {0.0: low, 1.0: low + 0.2, 1.5: low + 1.0, 3.0: low + 0.9, 4.0: low}
         channels.append(curve(f"rule.{rule.word}", keys, rule, ONWARD, ONWARD))
+    times, slopes = [0.0, 1.0, 1.5, 3.0, 4.0], [0.5, -0.5, 0.5, -1.0, 0.4]
+    fixed = make_run(times, [2.5, 2.7, 3.5, 3.4, 2.5], slopes, slopes, FIXED, FIXED)
+    channels.append(Channel("rule.fixed", fixed, pre=ONWARD, post=ONWARD))
     for row, mode in enumerate((CONSTANT, ONWARD, CYCLE, CYCLE_OFFSET, BOUNCE)):
         low = 0.5 - 1.5 * row
         wave = {1.5: low, 2.0: low + 0.9, 2.5: low + 0.4}
