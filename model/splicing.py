@@ -136,7 +136,7 @@ def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
     out[0], out[1] = slope_in[here], slope_out[here]
     count = spans.stop - spans.start
     with np.errstate(all="ignore"):
-        d_time = np.minimum(n[TIME, after] - n[TIME, spans], hermite.LARGEST)
+        d_time = n[TIME, after] - n[TIME, spans]
         out[5, :count] = d_time
         out[2, :count], out[3, :count], out[4, :count] = hermite.coefficients(
             d_time, n[VALUE, spans], n[VALUE, after], slope_out[spans], slope_in[after]
@@ -164,7 +164,7 @@ def _rebuild_few(rows: Rows, rank0: int, rank1: int) -> None:
         a = b = c = 0.0
         d_time = 1.0
         if i + 1 < n:
-            d_time = min(times[i + 1] - times[i], hermite.LARGEST)
+            d_time = times[i + 1] - times[i]
             if rules_out[i] != TangentRule.STEP:
                 a, b, c = hermite.coefficients(d_time, values[i], values[i + 1], slopes_out[i], slopes_in[i + 1])
         out.append((slopes_in[i], slopes_out[i], a, b, c, d_time))
@@ -246,7 +246,7 @@ def check(rows: Rows, next_id: int) -> None:
     assert again.tobytes() == numbers[SLOPE_IN : SLOPE_OUT + 1].tobytes(), "a slope is not what its rule says"
     if rows.size:
         with np.errstate(all="ignore"):
-            d_time = np.append(np.minimum(np.diff(t), hermite.LARGEST), 1.0)
+            d_time = np.append(np.diff(t), 1.0)
             spans = hermite.coefficients(d_time[:-1], v[:-1], v[1:], slope_out[:-1], slope_in[1:])
         expected = np.zeros((3, rows.size))
         expected[:, :-1] = spans

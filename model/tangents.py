@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -78,19 +79,23 @@ class RuleRow(NamedTuple):
 
 def slope_between(time0: float, value0: float, time1: float, value1: float) -> float:
     """The slope of the line from key 0 to key 1; one too steep for a double becomes +-LARGEST."""
-    slope = (value1 - value0) / (time1 - time0)
-    if slope - slope != 0.0:
-        slope = (0.5 * value1 - 0.5 * value0) / (0.5 * time1 - 0.5 * time0)
+    d_time = time1 - time0
+    slope = (value1 - value0) / d_time
+    if slope - slope != 0.0 or d_time == inf:
+        d_value = 0.5 * value1 - 0.5 * value0
+        slope = d_value / (0.5 * time1 - 0.5 * time0) if d_time == inf else d_value / d_time * 2.0
     return min(max(slope, -LARGEST), LARGEST)
 
 
 def _slopes_between(time0: Floats, value0: Floats, time1: Floats, value1: Floats) -> Floats:
     with np.errstate(all="ignore"):
-        slopes: Floats = (value1 - value0) / (time1 - time0)
-        wild = ~np.isfinite(slopes)
+        d_time = time1 - time0
+        slopes: Floats = (value1 - value0) / d_time
+        wild = ~np.isfinite(slopes) | (d_time == inf)
         if wild.any():
-            d_value = 0.5 * value1[wild] - 0.5 * value0[wild]
-            slopes[wild] = np.clip(d_value / (0.5 * time1[wild] - 0.5 * time0[wild]), -LARGEST, LARGEST)
+            d_value, d_time = 0.5 * value1[wild] - 0.5 * value0[wild], d_time[wild]
+            far = d_value / (0.5 * time1[wild] - 0.5 * time0[wild])
+            slopes[wild] = np.clip(np.where(d_time == inf, far, d_value / d_time * 2.0), -LARGEST, LARGEST)
     return slopes
 
 
