@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
 )
 
 from app.actions import ACTIONS
-from app.fuzzy import fitness
 from app.menus import shortcut_text
 
 if TYPE_CHECKING:
@@ -84,10 +83,11 @@ class TableDialog(QDialog):
         column.addWidget(buttons)
 
     def filter(self, query: str) -> None:
-        """Show only the rows that *query* fits."""
+        """Show only the rows that hold every word of *query*."""
+        words = query.lower().split()
         for row in range(self._model.rowCount()):
             text = " ".join(self._model.item(row, column).text() for column in range(self._model.columnCount()))
-            self.table.setRowHidden(row, not fitness(query, text))
+            self.table.setRowHidden(row, not all(word in text.lower() for word in words))
 
 
 class ShortcutsDialog(TableDialog):

@@ -55,6 +55,7 @@ class MainWindow(QMainWindow):
     menus: dict[str, QMenu]
     in_hand: "InHand"
     tips: "Soon"
+    disk_look: "Soon"
 
     assembled = Signal()
 
@@ -85,6 +86,20 @@ class MainWindow(QMainWindow):
         assemble(self, document, opened)
         self.ready = True
         self.assembled.emit()
+
+    # --- files
+
+    def open_file(self, path: str, skeleton: str | None = None) -> bool:
+        """Open the clip at *path*; False when that was refused, and nothing has changed."""
+        return self.files.open(path, skeleton)
+
+    def save(self) -> bool:
+        """Write the clip to its file; False when it was not written."""
+        return self.files.save()
+
+    def save_as(self, format_name: str | None = None) -> bool:
+        """Write the clip to a file that the user chooses; False when it was not written."""
+        return self.files.save_as(format_name)
 
     # --- what actions and panels ask of the window
 
@@ -196,7 +211,7 @@ class MainWindow(QMainWindow):
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
         if event.type() == QEvent.Type.ActivationChange and self.ready and self.isActiveWindow():
-            QTimer.singleShot(0, self, self.files.look_at_disk)
+            self.disk_look.ask()
 
 
 def dropped_files(event: QDropEvent) -> list[str]:

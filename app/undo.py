@@ -45,6 +45,7 @@ class UndoStack(QUndoStack):
 
     def _forget(self) -> None:
         self.clear()
+        self.setClean()  # clear() leaves the mark alone when there is nothing to clear
 
     def apply(self, edit: Edit) -> None:
         """Bring the document to the other side of *edit*; an open gesture is cancelled first."""

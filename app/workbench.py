@@ -63,6 +63,7 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
     window.questions = Questions(window)
     window.undo_stack = UndoStack(document, window)
     window.files = Files(window)
+    window.disk_look = Soon(window, window.files.look_at_disk)
     _make_parts(window)
     window.look_at_hand()
     window.actions_by_id = make_actions(window)

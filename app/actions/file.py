@@ -1,25 +1,12 @@
 """Actions of the File menu."""
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtGui import QKeySequence
 
 from app.actions.row import Action, Need
 
-if TYPE_CHECKING:
-    from app.main_window import MainWindow
-
 HAS_A_FILE = Need(lambda w: bool(w.files.path), "the clip has no file yet")
 HAS_CHANGES = Need(lambda w: w.files.modified or not w.files.path, "there is nothing to save")
 DIFFERS_FROM_FILE = Need(lambda w: w.files.modified, "the clip is as it is in its file")
-
-
-def _save(window: "MainWindow") -> None:
-    window.files.save()
-
-
-def _save_as(window: "MainWindow") -> None:
-    window.files.save_as()
 
 
 FILE_ACTIONS = (
@@ -53,7 +40,7 @@ FILE_ACTIONS = (
         id="file.save",
         menu="File",
         label="&Save",
-        function=_save,
+        function=lambda w: w.save(),
         shortcuts=(QKeySequence.StandardKey.Save,),
         icon="save",
         tip="Write the clip to its file",
@@ -64,7 +51,7 @@ FILE_ACTIONS = (
         id="file.save_as",
         menu="File",
         label="Save &As…",
-        function=_save_as,
+        function=lambda w: w.save_as(),
         shortcuts=("Ctrl+Shift+S",),
         icon="save-as",
         tip="Write the clip to another file or in another format",
