@@ -23,11 +23,12 @@ from widgets.tools.navigate import Navigation, Rest, edge_push, pinched, wheeled
 
 EDGE_INTERVAL = 16
 
+# By number: the keys of many keyboards have numbers that Qt has no name for.
 MODIFIER_OF_KEY = {
-    Qt.Key.Key_Shift: Modifier.ShiftModifier,
-    Qt.Key.Key_Control: Modifier.ControlModifier,
-    Qt.Key.Key_Alt: Modifier.AltModifier,
-    Qt.Key.Key_Meta: Modifier.MetaModifier,
+    Qt.Key.Key_Shift.value: Modifier.ShiftModifier,
+    Qt.Key.Key_Control.value: Modifier.ControlModifier,
+    Qt.Key.Key_Alt.value: Modifier.AltModifier,
+    Qt.Key.Key_Meta.value: Modifier.MetaModifier,
 }
 
 
@@ -129,10 +130,11 @@ class MouseRouter(QObject):
         self.strokes.release(point, event.buttons())
         if not self.busy:
             self._edge.stop()
-            self.strokes.move(point, event.buttons())
-        if asks:
+            self.strokes.move(point._replace(button=Button.NoButton), event.buttons())
+        taken = self._taken(event)
+        if asks:  # last of all: a menu runs an event loop of its own
             self.context_menu_requested.emit(event.globalPosition().toPoint(), self.tool.hit(point))
-        return self._taken(event)
+        return taken
 
     def _wheel(self, event: QWheelEvent) -> bool:
         wheeled(self.graph, event)
@@ -147,7 +149,7 @@ class MouseRouter(QObject):
     def _leave(self, event: QEvent) -> bool:
         if not self.busy:
             self._pointer = None
-            self.tool.leave()
+            (self.strokes.tool or self.tool).leave()
             self._say("")
         return False
 
@@ -161,7 +163,7 @@ class MouseRouter(QObject):
     # Keys and focus
 
     def _key(self, event: QKeyEvent) -> bool:
-        modifier = MODIFIER_OF_KEY.get(Qt.Key(event.key()))
+        modifier = MODIFIER_OF_KEY.get(event.key())
         if modifier is not None:
             pressed = event.type() == QEvent.Type.KeyPress
             self._modifiers = event.modifiers() | modifier if pressed else event.modifiers() & ~modifier

@@ -37,7 +37,8 @@ class Strokes:
 
     def press(self, point: Point, *, double: bool = False, alone: bool = True) -> None:
         """A button went down; *alone* if it is the only one that is down."""
-        if self.state is State.SPENT and alone:
+        if alone and self.state is not State.IDLE:
+            self.cancel()  # the release was lost, or belonged to what was cancelled
             self.state = State.IDLE
         if self.state is not State.IDLE:
             if point.button == Button.RightButton:

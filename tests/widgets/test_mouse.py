@@ -132,6 +132,14 @@ def test_after_a_cancel_the_next_press_works_even_if_its_release_was_lost(stroke
     assert tool.told == ["press 10", "cancel", "press 20", "click 20"]
 
 
+def test_a_second_press_of_the_only_button_takes_the_unfinished_stroke_back(strokes: Strokes, tool: Recorder) -> None:
+    strokes.press(at(10, LEFT))
+    strokes.move(at(30), LEFT)
+    strokes.press(at(20, LEFT))
+    strokes.release(at(20, LEFT), NONE)
+    assert tool.told == ["press 10", "drag 30", "cancel", "press 20", "click 20"]
+
+
 def test_cancel_without_a_stroke_tells_nobody(strokes: Strokes, tool: Recorder) -> None:
     strokes.cancel()
     assert tool.told == []

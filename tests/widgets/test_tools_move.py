@@ -318,6 +318,12 @@ def key_event(key: Qt.Key) -> QKeyEvent:
     return QKeyEvent(QEvent.Type.KeyPress, key, PLAIN)
 
 
+@pytest.mark.parametrize("code", [0x0416, 0x10FFFF, 0])
+def test_keys_without_a_name_are_left_to_others(desk: Desk, code: int) -> None:
+    event = QKeyEvent(QEvent.Type.KeyPress, code, PLAIN)
+    assert not desk.view.router.handle(event)
+
+
 def test_no_command_comes_through_in_the_middle_of_a_drag(desk: Desk) -> None:
     spot = desk.spot(desk.low, 2)
     desk.hand.drag(spot, beside(spot, 60, -40), drop=False)

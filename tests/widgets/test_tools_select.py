@@ -210,6 +210,13 @@ def test_the_right_button_asks_for_the_menu_of_what_is_there(desk: Desk) -> None
     assert len(asked) == 2, "a hand that trembles still gets its menu"
 
 
+def test_what_lay_under_the_pointer_stays_lit_after_a_right_click(desk: Desk) -> None:
+    desk.hand.click(desk.spot(desk.low, 2), RIGHT)
+    hover = desk.view.canvas.overlay.hover
+    assert hover is not None
+    assert (hover.kind, hover.id) == ("key", 2)
+
+
 def test_hints_follow_the_pointer_and_the_modifiers(desk: Desk) -> None:
     desk.select(desk.low, 1, 2, 3)
     desk.hand.move(desk.spot(desk.low, 2))
