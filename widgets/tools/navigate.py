@@ -14,6 +14,7 @@ from widgets.tools.scrub import ChangeRange, Scrub
 ZOOM_PER_UNIT = 1.2 ** (1 / 120)
 MAX_UNITS = 1200.0
 ZOOM_PER_PIXEL = 1.01
+MAX_PIXELS = 1000.0
 
 EDGE_MARGIN = 12.0
 EDGE_GAIN = 0.25
@@ -63,7 +64,11 @@ class Zoom(Pan):
         time, value = self.axes
         if time and value:
             dx = dy = dx + dy
-        self.graph.zoom(ZOOM_PER_PIXEL**dx if time else 1.0, ZOOM_PER_PIXEL**dy if value else 1.0, self.center)
+        self.graph.zoom(_factor(dx) if time else 1.0, _factor(dy) if value else 1.0, self.center)
+
+
+def _factor(pixels: float) -> float:
+    return float(ZOOM_PER_PIXEL ** max(-MAX_PIXELS, min(MAX_PIXELS, pixels)))
 
 
 class Rest(Pan):
