@@ -7,13 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model import splicing
+from model import evaluation, splicing
 from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
-from model.hermite import LARGEST
 from model.keyframe import Keyframe, Run
-from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE, A, B, C
+from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
 
 _NUMBERS = dict(NUMBER_FIELDS)
 _MARKS = dict(MARK_FIELDS)
@@ -115,9 +114,9 @@ class Channel(Curve):
 
     def coefficients_of(self, key_id: int) -> tuple[float, float, float, float]:
         """(a, b, c, d) of the span that the key with this id starts."""
-        column = self._rows.numbers[:, self._rows.slot(self._rows.rank_of(key_id))]
-        a, b, c, d = (min(max(float(column[i]), -LARGEST), LARGEST) for i in (A, B, C, VALUE))
-        return a, b, c, d
+        slot = np.array([self._rows.slot(self._rows.rank_of(key_id))])
+        a, b, c = (float(column[0]) for column in evaluation.finite_coefficients(self._rows, slot))
+        return a, b, c, float(self._rows.numbers[VALUE, slot[0]])
 
     # --- runs
 

@@ -168,9 +168,10 @@ class Curve:
         return tuple(float(column[0]) for column in spans)  # type: ignore[return-value]
 
     def _spans(self, rank0: int, rank1: int) -> Spans:
-        keys = self._rows.columns(rank0, rank1 + 1)
-        a, b, c = (np.clip(np.nan_to_num(keys[i, :-1]), -LARGEST, LARGEST) for i in (A, B, C))
-        return Spans(keys[TIME, :-1], keys[TIME, 1:], a, b, c, keys[VALUE, :-1])
+        slots = self._rows.slots(np.arange(rank0, rank1 + 1))
+        times = self._rows.times[slots]
+        spans = evaluation.finite_coefficients(self._rows, slots[:-1])
+        return Spans(times[:-1], times[1:], *spans, self._rows.numbers[VALUE][slots[:-1]])
 
     def spans_from(self, time: float, most: int) -> Floats:
         """(time0, time1, d_time, a, b, c, d) of neighbouring spans: (7, n), 1 <= n <= *most*.
@@ -211,7 +212,7 @@ class Curve:
         """Lowest and highest value of the curve in each [edges[j], edges[j + 1]], extrapolation included: (n - 1,)."""
         array = np.asarray(edges, np.float64)
         if len(self) == 0:
-            return np.zeros(len(array) - 1), np.zeros(len(array) - 1)
+            return np.zeros(max(len(array) - 1, 0)), np.zeros(max(len(array) - 1, 0))
         if self._extremes is None or self._extremes.numbers is not self._rows.numbers:
             self._extremes = envelope.Extremes(self._rows)
         return envelope.envelope(self._rows, self._extremes, self._the_ends(), array, self.pre, self.post)

@@ -96,8 +96,8 @@ def _span_ranges(rows: Rows, part: slice) -> Range:
 def _turns(rows: Rows, slots: Slots) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
     """((u, u), (value, value)) where the spans of these slots turn; NaN where they do not."""
     a, b, c, d = (rows.numbers[column][slots] for column in (A, B, C, VALUE))
-    wild = ~np.isfinite(a + b + c)
     with np.errstate(all="ignore"):
+        wild = ~np.isfinite(a + b + c)
         u0, u1 = hermite.extremum_places(a, b, c)
         value0, value1 = hermite.value(u0, a, b, c, d), hermite.value(u1, a, b, c, d)
         wild |= np.isinf(value0) | np.isinf(value1)

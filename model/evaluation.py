@@ -136,6 +136,18 @@ def scaled_spans(rows: Rows, slots: Slots) -> tuple[hermite.Scaled, Floats]:
     return hermite.scaled(n[TIME][slots], time1, value0, value1, slope0, slope1), time1
 
 
+def finite_coefficients(rows: Rows, slots: Slots) -> tuple[Floats, Floats, Floats]:
+    """(a, b, c) of the spans that the keys of *slots* start; what no double can hold becomes +-LARGEST."""
+    a, b, c = (rows.numbers[column][slots] for column in (A, B, C))
+    wild = np.flatnonzero(~(np.isfinite(a) & np.isfinite(b) & np.isfinite(c)))
+    if len(wild):
+        spans, _ = scaled_spans(rows, slots[wild])
+        with np.errstate(all="ignore"):
+            for column, true in ((a, spans.a), (b, spans.b), (c, spans.c)):
+                column[wild] = hermite.finite(np.ldexp(true, spans.exponent))
+    return a, b, c
+
+
 def slopes(rows: Rows, ends: Ends, times: Floats, pre: Extrapolation, post: Extrapolation, *, after: bool) -> Floats:
     """The slopes at *times* (n,), to the right of each (to the left, if not *after*), of a channel with keys."""
     inner, factor, right = times.copy(), np.ones_like(times), np.full(times.shape, after)
@@ -150,12 +162,14 @@ def slopes(rows: Rows, ends: Ends, times: Floats, pre: Extrapolation, post: Extr
             straight[outside] = end_slope if mode is Extrapolation.LINEAR else 0.0
             continue
         fold = row.fold(times[outside], ends)
-        inner[outside], factor[outside] = fold.times, fold.turns
-        right[outside] = (fold.turns > 0.0) == after
-    # At a join the curve comes from the end of a copy or goes on from the beginning of the next.
-    if ends.period > 0.0:
-        inner = np.where(~right & (inner == ends.time0), ends.time1, inner)
-        inner = np.where(right & (inner == ends.time1), ends.time0, inner)
+        tau, turns, to_right = fold.times, fold.turns, (fold.turns > 0.0) == after
+        # Where a copy begins or ends, the curve turns round or goes on at the other end.
+        seam = (~to_right & (tau == ends.time0)) | (to_right & (tau == ends.time1))
+        if mode is Extrapolation.BOUNCE:
+            turns, to_right = np.where(seam, -turns, turns), to_right ^ seam
+        else:
+            tau = np.where(seam, ends.time0 + ends.time1 - tau, tau)
+        inner[outside], factor[outside], right[outside] = tau, turns, to_right
     if rows.size == 1:
         return np.where(np.isnan(times), np.nan, np.where(np.isnan(straight), 0.0, straight))
     n = rows.numbers

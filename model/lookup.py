@@ -1,5 +1,7 @@
 """Finding the keys that many times follow: by bisection, by merging, or by a table of buckets of equal length."""
 
+from math import inf
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,11 +22,12 @@ class Table:
         times = rows.times
         buckets = max(16, 2 * len(times))
         self._start = float(times[0])
+        length = float(times[-1]) - self._start
+        self._per_second = buckets / length if length else inf
+        self.usable = 0.0 < self._per_second < inf
+        if not self.usable:
+            return
         with np.errstate(all="ignore"):
-            self._per_second = buckets / (float(times[-1]) - self._start)
-            self.usable = bool(0.0 < self._per_second < np.inf)
-            if not self.usable:
-                return
             counts = np.zeros(buckets + 2, np.int32)
             for at in range(0, len(times), AT_A_TIME):
                 part = self._buckets(times[at : at + AT_A_TIME])
