@@ -1,6 +1,5 @@
 """A clip's file as found on disk: read, recognised later, told from another version. No Qt: it may run in a worker."""
 
-import hashlib
 import os
 from pathlib import Path
 from typing import NamedTuple
@@ -9,14 +8,20 @@ from model.clip import Clip
 from model.formats import read_clip, sniff
 
 
+NO_DIGEST = 0  # of a file that changed while it was read: unlike any other
+
+
 class Fingerprint(NamedTuple):
-    """What tells one version of a file from another; an unequal digest decides, the rest only says when to look."""
+    """What tells one version of a file from another; an unequal digest decides, the rest only says when to look.
+
+    The digest is Python's own hash of the bytes: 64 bits, good within this process, and nothing to load at the start.
+    """
 
     device: int
     inode: int
     mtime_ns: int
     size: int
-    digest: bytes
+    digest: int
 
 
 class Opened(NamedTuple):
@@ -35,7 +40,7 @@ def open_clip(path: str, skeleton: str | None = None) -> Opened:
     clip = read_clip(path, skeleton=skeleton)
     after = fingerprint_of(path)
     if after is not None and before != after[:4]:
-        after = after._replace(digest=b"")  # written while it was read: it counts as changed
+        after = after._replace(size=-1, digest=NO_DIGEST)  # written while it was read: it counts as changed
     with open(path, "rb") as file:
         format_name = sniff(file.read(1 << 16))
     return Opened(clip, path, format_name, after)
@@ -48,7 +53,7 @@ def fingerprint_of(path: str) -> Fingerprint | None:
         return None
     try:
         with open(path, "rb") as file:
-            return Fingerprint(*status, hashlib.file_digest(file, "sha256").digest())
+            return Fingerprint(*status, hash(file.read()))
     except OSError:
         return None
 

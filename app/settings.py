@@ -1,6 +1,5 @@
 """Settings: what the program remembers from one run to the next, typed, in one ini file."""
 
-import json
 from typing import Any, cast
 
 from PySide6.QtCore import QByteArray, QSettings
@@ -39,7 +38,7 @@ class Settings:
     reorder = _Remembered("editing/reorder", True)
     loop = _Remembered("playing/loop", True)
 
-    _recent = _Remembered("files/recent", "[]")
+    _recent = _Remembered("files/recent", "")
 
     def __init__(self, path: str | None = None) -> None:
         """Keep them in *path*, or in the user's own place when it is None."""
@@ -49,15 +48,11 @@ class Settings:
     @property
     def recent_files(self) -> list[str]:
         """Absolute paths, newest first; they may be gone by now."""
-        try:
-            paths: Any = json.loads(self._recent)
-        except ValueError:
-            return []
-        return [path for path in paths if isinstance(path, str)] if isinstance(paths, list) else []
+        return [path for path in self._recent.split("\n") if path]
 
     @recent_files.setter
     def recent_files(self, paths: list[str]) -> None:
-        self._recent = json.dumps(paths[:RECENT_FILES_KEPT])
+        self._recent = "\n".join([path for path in paths if "\n" not in path][:RECENT_FILES_KEPT])
 
     def add_recent_file(self, path: str) -> None:
         """Put *path* in front."""

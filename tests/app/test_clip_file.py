@@ -5,8 +5,10 @@ from pathlib import Path
 
 import pytest
 
+import app.clip_file
 from app.clip_file import changed_since, fingerprint_of, open_clip
-from model.formats import FormatError
+from model.clip import Clip
+from model.formats import FormatError, read_clip
 
 CLIP = b"""animation {
   range 0 1
@@ -54,6 +56,17 @@ def test_opening_tells_format_and_absolute_path(path: Path, monkeypatch: pytest.
     opened = open_clip("walk.anim")
     assert (opened.path, opened.format_name) == (str(path), "anim")
     assert opened.fingerprint == fingerprint_of(str(path))
+
+
+def test_a_file_that_is_written_while_it_is_read_counts_as_changed(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def read_and_be_overtaken(name: str, skeleton: str | None = None) -> Clip:
+        clip = read_clip(name, skeleton=skeleton)
+        path.write_bytes(CLIP.replace(b"0 1 flat", b"0 25 flat"))
+        return clip
+
+    monkeypatch.setattr(app.clip_file, "read_clip", read_and_be_overtaken)
+    opened = open_clip(str(path))
+    assert changed_since(str(path), opened.fingerprint)
 
 
 def test_what_cannot_be_read_is_one_sentence_that_names_the_file(tmp_path: Path) -> None:

@@ -12,18 +12,18 @@ def test_values_keep_their_types_when_another_run_reads_them(tmp_path: Path) -> 
     path = str(tmp_path / "hermite.ini")
     settings = Settings(path)
     settings.snap, settings.appearance, settings.geometry = False, "light", QByteArray(b"\x00\x01geometry")
-    settings.recent_files = ["/only/one.anim"]
+    settings.recent_files = ["/only/one, two.anim"]
     settings.sync()
 
     again = Settings(path)
     assert again.snap is False
     assert again.appearance == "light"
     assert again.geometry == QByteArray(b"\x00\x01geometry")
-    assert again.recent_files == ["/only/one.anim"]
+    assert again.recent_files == ["/only/one, two.anim"]
 
 
 @pytest.mark.parametrize(
-    "text", ["[files]\nrecent=nonsense\n", "[files]\nrecent={}\n", "\x00\x01", "[editing]\nsnap=perhaps"]
+    "text", ["[files]\nrecent=\n", '[files]\nrecent="\\n\\n"\n', "\x00\x01", "[editing]\nsnap=perhaps"]
 )
 def test_a_broken_file_gives_the_defaults(tmp_path: Path, text: str) -> None:
     path = tmp_path / "hermite.ini"
