@@ -7,7 +7,6 @@ from typing import NamedTuple
 from model.clip import Clip
 from model.formats import read_clip, sniff
 
-
 NO_DIGEST = 0  # of a file that changed while it was read: unlike any other
 
 
