@@ -3,6 +3,7 @@
 Source: UCSD CSE169, project 3 "Keyframe animation" (S. Rotenberg) and the files of its students.
 """
 
+import re
 from typing import Final
 
 import numpy as np
@@ -23,6 +24,7 @@ _WRITTEN: Final = {
 }
 _WORDS_IN: Final[Words] = {word.encode(): rule for rule, word in _WRITTEN.items()}
 _WORDS_OUT: Final[Words] = {**_WORDS_IN, b"step": int(TangentRule.STEP), b"stepped": int(TangentRule.STEP)}
+_CHANNEL: Final = re.compile(rb"\bchannel\b")
 _MODES: Final = {mode.word: mode for mode in Extrapolation}
 
 
@@ -39,9 +41,11 @@ def read(data: bytes) -> Content:
             span = scanner.number("the start of the range"), scanner.number("the end of the range")
         elif token.text == b"numchannels" and announced is None:
             announced = scanner.count("the number of channels"), token
+            if announced[0] > MAX_CHANNELS:
+                raise TextError(token.start, f"{announced[0]} channels are announced; at most {MAX_CHANNELS} are read")
         elif token.text == b"channel":
-            if len(channels) == MAX_CHANNELS:
-                raise TextError(token.start, f"more than {MAX_CHANNELS} channels")
+            if len(channels) == (announced[0] if announced else MAX_CHANNELS):
+                raise _other_number(announced, len(_CHANNEL.findall(data)), token)
             channels.append(_read_channel(scanner, f"channel {len(channels)}"))
         else:
             missing = "'range', 'numchannels', 'channel' or '}'"
@@ -53,9 +57,15 @@ def read(data: bytes) -> Content:
     if announced is None:
         raise TextError(token.start, "the clip has no numchannels", f"add the line 'numchannels {len(channels)}'")
     if announced[0] != len(channels):
-        problem = f"numchannels says {announced[0]}, but the file holds {len(channels)} channels"
-        raise TextError(announced[1].start, problem, "correct the number, or look for the channels that are missing")
+        raise _other_number(announced, len(channels), token)
     return Content(*span, channels)
+
+
+def _other_number(announced: tuple[int, Token] | None, held: int, token: Token) -> TextError:
+    if announced is None:
+        return TextError(token.start, f"more than {MAX_CHANNELS} channels")
+    problem = f"numchannels says {announced[0]}, but the file holds {held} channels"
+    return TextError(announced[1].start, problem, "correct the number, or look for the channels that are missing")
 
 
 def _read_channel(scanner: Scanner, name: str) -> ChannelContent:
@@ -134,11 +144,12 @@ def write(content: Content) -> bytes:
     head = f"animation {{\n  range {content.start!r} {content.end!r}\n  numchannels {len(content.channels)}\n"
     parts = [head.encode()]
     keys = KeyWriter(_WRITTEN, "      ", "\t", flags=False)
-    for channel in content.channels:
+    texts = keys.texts([channel.run for channel in content.channels])
+    for channel, text in zip(content.channels, texts, strict=True):
         parts += [
             f"  channel {{\n    extrapolate {channel.pre.word} {channel.post.word}\n".encode(),
             b"    keys %d {\n" % len(channel.run),
-            keys.text(channel.run),
+            text,
             b"    }\n  }\n",
         ]
     parts.append(b"}\n")

@@ -96,34 +96,40 @@ _CHANNEL_LOSSES = {
 
 def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[str]:
     """Sentences on keys; the rules are named since each degrades in its own way."""
-    counts: dict[str, int] = {}
-    where: dict[str, list[str]] = {}
-
-    def note(kind: str, name: str, lost: NDArray[np.bool_]) -> None:
-        number = int(np.count_nonzero(lost))
-        if number:
-            counts[kind] = counts.get(kind, 0) + number
-            where.setdefault(kind, []).append(name)
-
     for name, a, b in runs:
         if len(a) != len(b):
-            note("lost or added", name, np.ones(abs(len(a) - len(b)), np.bool_))
-            continue
-        note("moved", name, (_bits(a["time"]) != _bits(b["time"])) | (_bits(a["value"]) != _bits(b["value"])))
-        for side in ("in", "out"):
-            rule_a, rule_b = a[f"rule_{side}"], b[f"rule_{side}"]
-            changed = rule_a != rule_b
-            for rule in np.unique(rule_a[changed]).tolist() if changed.any() else []:
-                lost = changed & (rule_a == rule)
-                for other in np.unique(rule_b[lost]).tolist():
-                    word = f"no longer {TangentRule(rule).word} but {TangentRule(other).word} on the {side} side"
-                    note(word, name, lost & (rule_b == other))
-            slopes = _bits(a[f"slope_{side}"]) != _bits(b[f"slope_{side}"])
-            note("with another slope", name, slopes & ~changed & (rule_a == _FIXED))
-        note("no longer marked as broken", name, a["broken"] & ~b["broken"])
-        note("no longer marked as unified", name, b["broken"] & ~a["broken"])
-    for kind, number in counts.items():
-        yield f"{number} {'key is' if number == 1 else 'keys are'} {kind}, in {_these(where[kind])}"
+            yield f"{_keys(abs(len(a) - len(b)))} lost or added, in {name}"
+    same = [(name, a, b) for name, a, b in runs if len(a) == len(b) and a is not b]
+    if not same:
+        return
+    names = [name for name, _, _ in same]
+    ends = np.cumsum([len(a) for _, a, _ in same])
+    wanted, held = np.concatenate([a for _, a, _ in same]), np.concatenate([b for _, _, b in same])
+    for kind, lost in _kinds_of_loss(wanted, held):
+        where = np.flatnonzero(lost)
+        if len(where):
+            channels = np.unique(np.searchsorted(ends, where, side="right")).tolist()
+            yield f"{_keys(len(where))} {kind}, in {_these([names[i] for i in channels])}"
+
+
+def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """What may have become of a key, and the keys of which it has."""
+    yield "moved", (_bits(a["time"]) != _bits(b["time"])) | (_bits(a["value"]) != _bits(b["value"]))
+    for side in ("in", "out"):
+        rules, others = a[f"rule_{side}"], b[f"rule_{side}"]
+        changed = rules != others
+        pairs = zip(rules[changed].tolist(), others[changed].tolist(), strict=True)
+        for rule, other in sorted(set(pairs)):
+            kind = f"no longer {TangentRule(rule).word} but {TangentRule(other).word} on the {side} side"
+            yield kind, (rules == rule) & (others == other)
+        slopes = _bits(a[f"slope_{side}"]) != _bits(b[f"slope_{side}"])
+        yield "with another slope", slopes & ~changed & (rules == _FIXED)
+    yield "no longer marked as broken", a["broken"] & ~b["broken"]
+    yield "no longer marked as unified", b["broken"] & ~a["broken"]
+
+
+def _keys(number: int) -> str:
+    return "1 key is" if number == 1 else f"{number} keys are"
 
 
 def _bits(column: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -51,9 +51,11 @@ def place_of(data: bytes, offset: int) -> tuple[int, int]:
     return data.count(b"\n", 0, offset) + 1, len(data[start:offset].decode("utf-8", "replace")) + 1
 
 
-def shown(token: bytes) -> str:
+def shown(token: bytes | str) -> str:
     """*token* as a message shows it: quoted, cut short, nothing unprintable."""
-    if not token:
+    if isinstance(token, str):
+        token = token.encode("utf-8", "replace")
+    elif not token:
         return "the end of the file"
     text = token[:_SHOWN_BYTES].decode("utf-8", "replace")
     text = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text)

@@ -15,12 +15,15 @@ _COLUMNS: Final = ("the key's time", "the key's value", "the tangent in", "the t
 
 
 def first_error(
-    data: bytes, start: int, end: int, words_in: dict[bytes, int], words_out: dict[bytes, int], flag: bytes
-) -> TextError | None:
-    """The first wrong word among the keys in data[start:end]; *flag* may stand behind a key, once."""
+    data: bytes, start: int, cut: int, end: int, words_in: dict[bytes, int], words_out: dict[bytes, int], flag: bytes
+) -> TextError:
+    """The first wrong word in data[start:cut], where something is wrong; *flag* may stand behind a key, once.
+
+    The keys begin at *start* and end at *end*.
+    """
     column = 0
     after_key = False
-    for match in _WORDS.finditer(data, start, end):
+    for match in _WORDS.finditer(data, start, cut):
         token = Token(match.group(), match.start())
         if flag and token.text == flag:
             if not after_key:
@@ -37,10 +40,8 @@ def first_error(
             return error
         column = (column + 1) % 4
         after_key = column == 0
-    if column:
-        found = shown(data[end : end + 1])
-        return TextError(end, f"expected {_COLUMNS[column]}, found {found}", "a key is time, value, two tangents")
-    return None
+    found = shown(data[end : end + 1])
+    return TextError(end, f"expected {_COLUMNS[column]}, found {found}", "a key is time, value, two tangents")
 
 
 def _check_tangent(token: Token, words: dict[bytes, int], what: str) -> None:

@@ -1,13 +1,14 @@
 """Blocks of keys as text, both ways: one key a line, time, value, tangent in, tangent out."""
 
-from itertools import compress, repeat
+from collections.abc import Sequence
+from itertools import compress, pairwise, repeat
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from model.formats.decimals import CELL, Cells, fill_cells
-from model.formats.error import MAX_KEYS, TextError
+from model.formats.error import MAX_KEYS, MAX_TOKEN_BYTES, TextError
 from model.formats.key_errors import first_error, order_error
 from model.formats.numerals import Columns, columns_of
 from model.keyframe import KEY_DTYPE, Run, TangentRule
@@ -18,6 +19,7 @@ _FIELDS: Final = ("time", "value", "rule_in", "slope_in", "rule_out", "slope_out
 type Words = dict[bytes, int]
 
 _PIECE: Final = 1 << 18  # bytes read at once
+_SMALL: Final = 1 << 13  # bytes below which one word after the other is quicker than whole columns
 _LINES: Final = 4096  # written at once
 
 
@@ -28,65 +30,89 @@ def run_from_text(data: bytes, start: int, end: int, words_in: Words, words_out:
     With *flags* the word ``broken`` may follow a key. The slopes of all other rules are left 0. Raises TextError at the
     first word that is wrong; times must strictly increase.
     """
-    pieces = _quick_pieces(data, start, end, words_in, words_out, flags=flags)
-    if pieces is None:
-        pieces = [_slow_piece(data, start, end, words_in, words_out, flags=flags)]
-    run = _joined(pieces)
-    if len(run) > MAX_KEYS:
-        raise TextError(start, f"{len(run)} keys in one channel; at most {MAX_KEYS} are read")
-    times = run["time"]
-    if len(times) > 1 and not bool((times[1:] > times[:-1]).all()):
-        raise order_error(data, start, end, times, BROKEN if flags else b"")
-    return run
-
-
-def _joined(pieces: list[Columns]) -> Run:
-    run = np.zeros(sum(len(piece.times) for piece in pieces), KEY_DTYPE)
+    flag = BROKEN if flags else b""
+    pieces: list[Columns] = []
+    position = start
+    count = 0
+    while position < end:
+        piece, position = _piece(data, position, end, words_in, words_out, flag)
+        pieces.append(piece)
+        count += len(piece.times)
+        if count > MAX_KEYS:
+            raise TextError(start, f"more than {MAX_KEYS} keys in one channel")
+    run = np.zeros(count, KEY_DTYPE)
     first = 0
     for piece in pieces:
         part = run[first : first + len(piece.times)]
         for field, column in zip(_FIELDS, piece, strict=True):
             part[field] = column
         first += len(part)
+    times = run["time"]
+    if count > 1 and not bool((times[1:] > times[:-1]).all()):
+        raise order_error(data, start, end, times, flag)
     return run
 
 
-def _quick_pieces(
-    data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool
-) -> list[Columns] | None:
-    """The keys, piece by piece, each cut at the end of a line; None if they are not written one a line, plainly."""
-    pieces: list[Columns] = []
-    position = start
-    while position < end or not pieces:
-        cut = end if end - position <= _PIECE else data.find(b"\n", position + _PIECE, end)
-        cut = end if cut < 0 else cut
-        piece = columns_of(data[position:cut], words_in, words_out, _FIXED, BROKEN if flags else b"")
-        if piece is None or not (np.isfinite(piece.times).all() and np.isfinite(piece.values).all()):
-            return None
-        if not (np.isfinite(piece.slopes_in).all() and np.isfinite(piece.slopes_out).all()):
-            return None
-        pieces.append(piece)
-        position = cut
-    return pieces
+def _piece(data: bytes, start: int, end: int, words_in: Words, words_out: Words, flag: bytes) -> tuple[Columns, int]:
+    """The first keys of data[start:end], and where the next ones begin.
+
+    Text as editors write it, a line a key, is read as whole columns; any other one word after the other.
+    """
+    cut = end if end - start <= _PIECE else data.find(b"\n", start + _PIECE, end)
+    cut = end if cut < 0 else cut
+    if cut - start > _SMALL:
+        piece = columns_of(data[start:cut], words_in, words_out, _FIXED, flag)
+        if piece is not None:
+            return piece, cut
+        cut = _end_of_keys(data, start, end, flag)
+    piece = _columns_word_by_word(data[start:cut], words_in, words_out, flag)
+    if piece is None:
+        raise first_error(data, start, cut, end, words_in, words_out, flag)
+    return piece, cut
 
 
-def _slow_piece(data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Columns:
-    """The same one word after the other: takes keys however they are laid out, and names what is wrong."""
-    tokens = data[start:end].split()
-    flag = BROKEN if flags else b""
-    error = first_error(data, start, end, words_in, words_out, flag)
-    if error is not None:
-        raise error
-    broken = np.zeros(len(tokens) // 4, np.bool_)
-    if flag in tokens:
-        is_flag = np.fromiter(map(flag.__eq__, tokens), np.bool_, len(tokens))
-        tokens = list(compress(tokens, ~is_flag))
-        broken = np.zeros(len(tokens) // 4, np.bool_)
-        broken[(np.flatnonzero(is_flag) - np.arange(np.count_nonzero(is_flag))) // 4 - 1] = True
-    n = len(tokens) // 4
-    times = np.fromiter(map(float, tokens[0::4]), np.float64, n)
-    values = np.fromiter(map(float, tokens[1::4]), np.float64, n)
-    return Columns(times, values, *_tangents(tokens[2::4], words_in), *_tangents(tokens[3::4], words_out), broken)
+def _end_of_keys(data: bytes, start: int, end: int, flag: bytes) -> int:
+    """Where, not far behind *start*, a key ends for sure, however the keys are laid out."""
+    size = _PIECE
+    while end - start > size:
+        words = data[start : start + size].split()
+        # The last word may be cut off and a flag may follow, so one key more than is begun is left for later.
+        left, columns = 1, 0
+        wanted = 4 + (len(words) - words.count(flag) - 1) % 4
+        while left < len(words) and columns < wanted:
+            columns += words[-1 - left] != flag
+            left += 1
+        if left < len(words):
+            return start + len(data[start : start + size].rsplit(None, left)[0])
+        size *= 2
+    return end
+
+
+def _columns_word_by_word(text: bytes, words_in: Words, words_out: Words, flag: bytes) -> Columns | None:
+    """The keys in *text*, however they are laid out; None if a word is wrong."""
+    words = text.split()
+    broken = np.zeros(len(words) // 4, np.bool_)
+    if flag and flag in words:
+        is_flag = np.fromiter(map(flag.__eq__, words), np.bool_, len(words))
+        before = np.flatnonzero(is_flag) - np.arange(np.count_nonzero(is_flag))
+        if (before % 4).any() or (before == 0).any() or (np.diff(before) == 0).any():
+            return None
+        words = list(compress(words, ~is_flag))
+        broken = np.zeros(len(words) // 4, np.bool_)
+        broken[before // 4 - 1] = True
+    # float() takes 1_000 as well, and split() cuts at two characters that are no blanks here.
+    odd = b"_" in text or b"\x0b" in text or b"\x0c" in text or max(map(len, words), default=0) > MAX_TOKEN_BYTES
+    if len(words) % 4 or odd:
+        return None
+    try:
+        times = np.array(list(map(float, words[0::4])), np.float64)
+        values = np.array(list(map(float, words[1::4])), np.float64)
+        rules_in, slopes_in = _tangents(words[2::4], words_in)
+        rules_out, slopes_out = _tangents(words[3::4], words_out)
+    except ValueError:
+        return None
+    columns = Columns(times, values, rules_in, slopes_in, rules_out, slopes_out, broken)
+    return columns if columns.finite() else None
 
 
 def _tangents(tokens: list[bytes], words: Words) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
@@ -110,9 +136,13 @@ class KeyWriter:
         self._words = np.array([_quads(words.get(rule, ""), 2) for rule in range(max(TangentRule) + 1)])
         self._ends = _quads("\n", 2), _quads(f"{separator}{BROKEN.decode()}\n", 2)
 
-    def text(self, run: Run) -> bytes:
-        """The lines of *run*."""
-        return b"".join(self._lines(run[i : i + _LINES]) for i in range(0, len(run), _LINES))
+    def texts(self, runs: Sequence[Run]) -> list[bytes]:
+        """The lines of each run; all runs are worked on together, since there may be many short ones."""
+        keys = np.concatenate(runs) if runs else np.zeros(0, KEY_DTYPE)
+        text = b"".join([self._lines(keys[i : i + _LINES]) for i in range(0, len(keys), _LINES)])
+        ends = np.flatnonzero(np.frombuffer(text, np.uint8) == ord("\n")) + 1
+        cuts = np.concatenate([[0], ends])[np.cumsum([0, *map(len, runs)])].tolist()
+        return [text[first:last] for first, last in pairwise(cuts)]
 
     def _lines(self, run: Run) -> bytes:
         """Cells of four bytes each, side by side; where a cell is not full there are NULs, which are taken out."""

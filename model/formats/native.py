@@ -26,6 +26,8 @@ def read(data: bytes) -> Content:
     scanner = Scanner(data)
     scanner.expect(b"hermite")
     _check_version(scanner)
+    if data.count(b"\nchannel") > MAX_CHANNELS:
+        raise TextError(0, f"more than {MAX_CHANNELS} channels")
     title: str | None = None
     span: tuple[float, float] | None = None
     rate: float | None = None
@@ -44,7 +46,7 @@ def read(data: bytes) -> Content:
                 raise TextError(token.start, f"more than {MAX_CHANNELS} channels")
             channel = _read_channel(scanner)
             if channel.name in channels:
-                raise TextError(token.start, f"a second channel is named {quoted(channel.name)}", "rename one of them")
+                raise TextError(token.start, f"a second channel is named {shown(channel.name)}", "rename one of them")
             channels[channel.name] = channel
         else:
             raise _unexpected(token, ("title", "range", "rate", "channel", "end"))
@@ -101,7 +103,7 @@ def _read_channel(scanner: Scanner) -> ChannelContent:
             raise _unexpected(token, ("unit", "color", "locked", "extrapolate", "keys", "}"))
     if modes is None or run is None:
         missing = "'extrapolate'" if modes is None else "'keys'"
-        raise TextError(token.start, f"expected {missing} in the channel {quoted(name)}, found its end")
+        raise TextError(token.start, f"expected {missing} in the channel {shown(name)}, found its end")
     return ChannelContent(name, run, *modes, unit or "", color, locked)
 
 
@@ -116,7 +118,7 @@ def _read_keys(scanner: Scanner) -> Run:
 
 def _checked_color(color: str, start: int = 0) -> str:
     if not _COLOR.match(color):
-        raise TextError(start, f'the colour {quoted(color)} is not of the kind "#12ab9f"')
+        raise TextError(start, f"the colour {shown(color)} is not of the kind '#12ab9f'")
     return color
 
 
@@ -133,8 +135,9 @@ def write(content: Content) -> bytes:
         head.append(f"title {quoted(checked_text(content.title, 'the title'))}\n")
     head.append(f"range {content.start!r} {content.end!r}\nrate {content.frame_rate!r}\n")
     parts = ["".join(head).encode()]
-    for channel in content.channels:
-        parts += [_channel_head(channel).encode(), keys.text(channel.run), b"  }\n}\n"]
+    texts = keys.texts([channel.run for channel in content.channels])
+    for channel, text in zip(content.channels, texts, strict=True):
+        parts += [_channel_head(channel).encode(), text, b"  }\n}\n"]
     parts.append(b"\nend\n")
     return b"".join(parts)
 

@@ -44,6 +44,12 @@ class Columns(NamedTuple):
     slopes_out: Floats
     broken: Bools
 
+    def finite(self) -> bool:
+        """Whether all numbers are finite: a text may spell one that is too large for a double."""
+        return all(
+            bool(np.isfinite(column).all()) for column in (self.times, self.values, self.slopes_in, self.slopes_out)
+        )
+
 
 class _Words:
     """The words of a piece of text, cut at blanks and at points, so that a number is one or two of them."""
@@ -163,7 +169,8 @@ def columns_of(
     tangents_out = _tangents(words, columns[:, 3], words_out, fixed)
     if times is None or values is None or tangents_in is None or tangents_out is None:
         return None
-    return Columns(times, values, *tangents_in, *tangents_out, broken)
+    found = Columns(times, values, *tangents_in, *tangents_out, broken)
+    return found if found.finite() else None
 
 
 def _tangents(

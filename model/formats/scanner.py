@@ -96,12 +96,11 @@ class Scanner:
     def text(self, what: str) -> str:
         """A text in double quotes, with the escapes of JSON."""
         token = self.peek()
-        match = _TEXT.match(self.data, token.start)
+        # Six bytes spell one at most, as in \\u0041.
+        match = _TEXT.match(self.data, token.start, token.start + 6 * MAX_NAME_BYTES + 2)
         if match is None:
-            found = "a quote that is never closed" if token.text.startswith(b'"') else shown(token.text)
+            found = "a quote that does not end soon" if token.text.startswith(b'"') else shown(token.text)
             raise TextError(token.start, f"expected {what} in double quotes, found {found}")
-        if len(match.group()) > 6 * MAX_NAME_BYTES + 2:
-            raise TextError(token.start, f"{what} is longer than {MAX_NAME_BYTES} bytes")
         self.position = match.end()
         try:
             text = json.loads(match.group().decode("utf-8"))

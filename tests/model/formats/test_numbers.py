@@ -1,0 +1,95 @@
+"""Numbers by the million: the same text as repr, the same double as float, for each one of them."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from model.channel import Channel
+from model.clip import Clip
+from model.formats import read_bytes, write_bytes
+from model.formats.decimals import CELL, fill_cells, quotients
+from model.keyframe import TangentRule, make_run
+
+RANDOM = np.random.default_rng(20)
+NEAR = np.array([m * 10.0**e for e in range(-6, 17) for m in (1, 2, 5, 9, 9.5, 9.999999, 9.007199254740993)])
+SETS = {
+    "normal": RANDOM.normal(size=20_000),
+    "frames": np.arange(20_000) / 30,
+    "six decimals": np.round(RANDOM.normal(size=20_000), 6),
+    "all sizes": np.exp(RANDOM.uniform(-20, 50, 20_000)),
+    "all bit patterns": np.nan_to_num(RANDOM.integers(0, 1 << 63, 20_000).view(np.float64)),
+    "whole": RANDOM.integers(-(10**9), 10**9, 20_000).astype(np.float64),
+    "16 digits": RANDOM.integers(1, 10**16, 20_000) / 10.0 ** RANDOM.integers(2, 16, 20_000),
+    "short in binary": RANDOM.integers(1, 1 << 40, 20_000) / 2.0 ** RANDOM.integers(0, 50, 20_000),
+    "above 9": RANDOM.uniform(9, 10, 20_000),
+    "powers of two": 2.0 ** np.arange(-60, 80),
+    "zeros": np.array([0.0, -0.0, 1.0, -1.0, 5e-324, 1.7976931348623157e308]),
+    "beside round ones": np.concatenate([NEAR + k * np.spacing(NEAR) for k in range(-9, 10)]),
+}
+
+
+def texts(numbers: NDArray[np.float64]) -> list[str]:
+    cells = np.zeros((len(numbers), CELL), np.uint32)
+    fill_cells(cells, numbers)
+    return [row.tobytes().replace(b"\0", b"").decode() for row in cells]
+
+
+@pytest.mark.parametrize("numbers", SETS.values(), ids=SETS.keys())
+def test_the_text_of_a_number_is_its_repr(numbers: NDArray[np.float64]) -> None:
+    assert texts(numbers) == list(map(repr, numbers.tolist()))
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20))
+def test_the_text_of_any_number_is_its_repr(numbers: list[float]) -> None:
+    assert texts(np.array(numbers)) == list(map(repr, numbers))
+
+
+def read_as_values(words: list[str]) -> list[float]:
+    keys = "".join(f"{i} {word} flat {word}\n" for i, word in enumerate(words))
+    head = f"animation {{ range 0 1 numchannels 1 channel {{ extrapolate constant constant keys {len(words)} {{\n"
+    run = read_bytes(f"{head}{keys} }} }} }}".encode(), "x").channels[0].run()
+    assert run["slope_out"].tobytes() == run["value"].tobytes()
+    return run["value"].tolist()
+
+
+@pytest.mark.parametrize("numbers", SETS.values(), ids=SETS.keys())
+def test_a_number_reads_back_as_the_same_double(numbers: NDArray[np.float64]) -> None:
+    assert np.array(read_as_values(list(map(repr, numbers.tolist())))).tobytes() == numbers.tobytes()
+
+
+DECIMALS = st.from_regex(r"\A[+-]?([0-9]{1,25}(\.[0-9]{0,25})?|\.[0-9]{1,25})([eE][+-]?[0-9]{1,2})?\Z")
+
+
+@given(st.lists(DECIMALS, min_size=1, max_size=20))
+def test_any_decimal_reads_as_the_nearest_double(words: list[str]) -> None:
+    assert list(map(float.hex, read_as_values(words))) == [float(word).hex() for word in words]
+
+
+def test_decimals_half_way_between_two_doubles_are_rounded_right() -> None:
+    words = [f"{k}.{half}" for k in range(1 << 20, (1 << 20) + 2000) for half in ("00000000011641532", "5000000000116")]
+    words += [repr(float(number)) + "5" for number in RANDOM.uniform(1, 2, 5000)]
+    assert read_as_values(words) == list(map(float, words))
+
+
+def test_a_division_of_integers_is_certain_nearly_everywhere_and_then_right() -> None:
+    digits = RANDOM.integers(1, 10**18, 20_000)
+    places = RANDOM.integers(0, 19, 20_000)
+    values, certain = quotients(digits, places)
+    right = [int(d) / 10 ** int(p) for d, p in zip(digits, places, strict=True)]
+    assert values[certain].tolist() == np.array(right)[certain].tolist()
+    assert certain.mean() > 0.98
+
+
+@pytest.mark.parametrize("format_name", ["anim", "hermite"])
+def test_a_clip_longer_than_what_is_worked_on_at_once_comes_back(format_name: str) -> None:
+    n = 30_000
+    rules = RANDOM.choice([TangentRule.FLAT, TangentRule.SMOOTH, TangentRule.FIXED], n)
+    slopes = np.where(rules == TangentRule.FIXED, RANDOM.normal(size=n), 0.0)
+    run = make_run(np.arange(n) / 24, RANDOM.normal(size=n), slopes, slopes, rules, rules, False)
+    again = read_bytes(write_bytes(Clip([Channel("c", run)]), format_name), "x").channels[0].run()
+    fixed = rules == TangentRule.FIXED
+    for field in ("time", "value", "rule_in", "rule_out", "broken"):
+        assert again[field].tobytes() == run[field].tobytes()
+    assert again["slope_in"][fixed].tobytes() == slopes[fixed].tobytes()
