@@ -102,6 +102,7 @@ def test_a_comma_between_the_arguments_of_a_function_stays_one():
         "-" * 60 + "1",
         "+".join("1" * 100),
         "1" * 257,
+        "max(max(max(max(1,1),max(1,1)),max(max(1,1),max(1,1))),max(max(max(1,1),max(1,1)),max(max(1,1),max(1,1))))+1+1",
         "١٢",
         "1\x00",
         "1\u202e2",

@@ -120,6 +120,9 @@ def test_the_filter_finds_all_words_in_the_full_name_in_any_case(tree):
     assert shown_texts(tree) == ["root", "  tx"]
     QTest.keyClick(tree.filter, Key.Key_Escape)
     assert len(shown_texts(tree)) == 8
+    channel(tree, "blink").name = "BLINK"
+    QTest.keyClicks(tree.filter, "blI")
+    assert shown_texts(tree) == ["BLINK"]
 
 
 def test_from_the_filter_the_down_key_goes_to_what_was_found(tree, document):
@@ -139,6 +142,13 @@ def test_chosen_channels_and_folds_outlive_the_filter(tree):
     assert not tree.view.isExpanded(tree.view.rows.index(0, 0))
     assert tree.view.isExpanded(tree.view.rows.index(2, 0))
     assert names(tree.chosen()) == ["head.rx"]
+
+
+def test_what_is_folded_while_filtering_is_not_folded_afterwards(tree):
+    tree.filter.setText("root")
+    tree.view.collapse(tree.view.rows.index(0, 0))
+    tree.filter.clear()
+    assert tree.view.isExpanded(tree.view.rows.index(0, 0))
 
 
 def test_the_eye_hides_and_shows_a_channel_and_chooses_nothing(tree, document, edits):
@@ -302,6 +312,17 @@ def test_only_values_that_read_differently_are_painted_again_and_they_are_right(
     assert value_pixels(tree, "root.tx") == half
 
 
+def test_a_value_painted_with_all_in_between_is_painted_again(tree, document, qtbot, monkeypatch):
+    document.session.playhead = 0.5
+    qtbot.wait(50)
+    painted = []
+    monkeypatch.setattr(tree.view.cells, "paint_values", lambda *a: painted.append(len(a[3])))
+    document.session.playhead = 0.7
+    tree.view.viewport().repaint()
+    document.session.playhead = 0.5
+    qtbot.waitUntil(lambda: painted == [6])
+
+
 def _flattened(channel):
     run = channel.run()
     after = run.copy()
@@ -337,6 +358,7 @@ def test_an_edit_keeps_folds_choice_and_place(tree, document, qtbot):
     document.replace(Clip([Channel(f"g{i // 10}.c{i}", make_run([0], [i])) for i in range(500)]))
     tree.view.collapse(tree.view.rows.index(0, 0))
     tree.view.choose([document.clip.channels[205], document.clip.channels[207]])
+    document.session.active = document.clip.channels[207]
     tree.view.verticalScrollBar().setValue(700)
     before = tuple(document.clip.channels)
     document.do("Remove", lambda clip: [Membership(before, before[:-1])])

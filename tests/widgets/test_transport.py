@@ -84,6 +84,14 @@ def test_a_loop_goes_round_without_losing_time(playback, session, clock):
     assert session.playing
 
 
+def test_a_loop_switched_off_plays_on_to_the_end(playback, session, clock):
+    playback.toggle_play()
+    run(playback, clock, 2.5)
+    session.loop = False
+    run(playback, clock, 0.25)
+    assert (session.playhead, session.playing) == (0.75, True)
+
+
 def test_without_the_loop_it_stops_at_the_end(playback, session, clock):
     session.loop = False
     playback.toggle_play()
@@ -165,6 +173,7 @@ def test_the_real_clock_moves_the_playhead_in_real_time(transport, session, qtbo
         (0.3, 10, 1.3),
         (-0.05, 1, 0.0),
         (0.1 * 3, 1, 0.4),
+        (0.1 * 3, -1, 0.2),
     ],
 )
 def test_steps_end_on_whole_frames(playback, session, start, frames, end):
