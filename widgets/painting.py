@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRect
 from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QPolygonF
 
-from model.sampling import Line
+from model.lines import Line
 
 type Floats = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from model.document import Document
 from widgets.colors import mix
 from widgets.theme import Theme
 
-# With more curves than this, thin hard lines: soft ones cost twice the ink, and nobody sees it in a thicket.
+# With more curves than this, thin hard whole lines: soft or dashed ones cost twice the ink and are lost in a thicket.
 MOST_SOFT: Final = 48
 LOCKED_DASH: Final = (3.0, 3.0)
 DIMMED: Final = 0.28
@@ -47,13 +47,14 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
         own = theme.channel_color(channel, index)
         part = LOCKED_DIMMED if channel.locked else DIMMED if some_active and channel is not active else 0.0
         color = mix(own, theme.background, part)
+        dash = LOCKED_DASH if channel.locked else theme.channel_dash(channel, index)
         traces.append(
             Trace(
                 channel,
                 index,
                 color,
                 mix(color, theme.background, FAINT),
-                LOCKED_DASH if channel.locked else theme.channel_dash(channel, index),
+                dash if soft or channel is active else (),
                 2.0 if channel is active else 1.0,
                 soft or channel is active,
                 channel is active,

@@ -1,6 +1,7 @@
 """Curves between the first and the last key: soft lines where keys are few, exact columns where they are many."""
 
 from collections.abc import Sequence
+from itertools import groupby
 from math import ceil, floor
 from typing import Final
 
@@ -8,45 +9,58 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter
 
-from model.channel import Spans
-from model.sampling import Window, columns, crowded, dashes, line_through
+from model.lines import TOLERANCE, Line, dashes, line_through, lines_through
+from model.sampling import Window, columns, crowded
 from widgets.painting import draw_chain, draw_lines, hair
 from widgets.stage import Stage
 from widgets.traces import Trace
 
 # How far a line reaches beside its mathematical place.
 REACH: Final = 4.0
+# How far, in pixels, the hard lines of a thicket may lie beside a steep curve.
+THICKET: Final = 0.8
 
 
 def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """Each trace's curve from *x0* to *x1*; how it is drawn is decided by the whole window, never by this part."""
-    for trace in traces:
-        draw_curve(painter, stage, trace, trace.color, x0, x1, trace.pixels(stage.window.unit))
+    window = stage.window
+    t0, t1 = window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH)
+    for soft, group in groupby(traces, lambda trace: trace.soft):
+        lined = []
+        for trace in group:
+            if len(trace.channel) > 1 and not _drawn_crowded(painter, window, trace, trace.color, x0, x1):
+                lined.append((trace, trace.channel.spans_between(t0, t1)))
+        lines = lines_through([spans for _, spans in lined], window, TOLERANCE if soft else THICKET)
+        for (trace, _), line in zip(lined, lines, strict=True):
+            draw_line(painter, window, line, trace, trace.color, trace.pixels(window.unit), trace.dash)
 
 
 def draw_curve(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0: float, x1: float, width: int) -> None:
     """One curve in one colour."""
     window, channel = stage.window, trace.channel
-    if len(channel) < 2:
-        return
-    if crowded(channel, window):
-        draw_columns(painter, window, trace, color, x0, x1, inside=True)
-        return
-    spans = channel.spans_between(window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH))
-    draw_spans(painter, window, spans, trace, color, width, trace.dash)
+    if len(channel) > 1 and not _drawn_crowded(painter, window, trace, color, x0, x1):
+        spans = channel.spans_between(window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH))
+        line = line_through(spans, window, TOLERANCE if trace.soft else THICKET)
+        draw_line(painter, window, line, trace, color, width, trace.dash)
 
 
-def draw_spans(
+def _drawn_crowded(painter: QPainter, window: Window, trace: Trace, color: QColor, x0: float, x1: float) -> bool:
+    if not crowded(trace.channel, window):
+        return False
+    draw_columns(painter, window, trace, color, x0, x1, inside=True)
+    return True
+
+
+def draw_line(
     painter: QPainter,
     window: Window,
-    spans: Spans,
+    line: Line,
     trace: Trace,
     color: QColor,
     width: int,
     pattern: tuple[float, ...],
 ) -> None:
-    """Spans as one line, dashed along time if there is a pattern (in logical pixels)."""
-    line = line_through(spans, window)
+    """One chain, dashed along time if there is a pattern (in logical pixels)."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
     pen = hair(color)
     if not pattern:
@@ -56,8 +70,12 @@ def draw_spans(
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(pen)
     scaled = tuple(part * window.unit for part in pattern)
-    anchor = window.left - (window.t0 * window.px_per_second) % sum(scaled)
-    draw_lines(painter, dashes(line, scaled, anchor), width)
+    draw_lines(painter, dashes(line, scaled, anchor_of(window, scaled)), width)
+
+
+def anchor_of(window: Window, pattern: tuple[float, ...]) -> float:
+    """An x from which dashes are counted so that they move with the curves when the view does."""
+    return window.left - (window.t0 * window.px_per_second) % sum(pattern)
 
 
 def draw_columns(

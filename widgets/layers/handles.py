@@ -9,7 +9,8 @@ from PySide6.QtGui import QPainter, QPen
 
 from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, TangentRule
-from model.sampling import FAR, HUGE, Window
+from model.lines import HUGE
+from model.sampling import FAR, Window
 from widgets.graph import Spot
 from widgets.layers.keys import SELECTED, selected_between
 from widgets.stage import Stage

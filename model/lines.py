@@ -1,0 +1,188 @@
+"""Lines: cubics as chains of points within a quarter of a pixel, and chains cut into dashes."""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.channel import Spans
+from model.sampling import FAR, Window
+
+type Floats = NDArray[np.float64]
+
+# No line may leave the true cubic by more pixels than this.
+TOLERANCE = 0.25
+# Beyond this the arithmetic of crossings overflows, and every line is upright anyway.
+HUGE = 1e30
+MOST_PIECES = 4096
+
+
+class Line(NamedTuple):
+    """A chain of points in pixels; the steps of a curve are upright pieces of it."""
+
+    x: Floats
+    y: Floats
+
+
+def line_through(spans: Spans, window: Window, sideways: float = TOLERANCE) -> Line:
+    """The spans as one chain of points within a quarter of a pixel of the true cubics, keys and extrema exact.
+
+    Where it is steep it may be *sideways* pixels off instead. Its points depend on each span and on the window alone,
+    so that a part drawn again meets the rest pixel by pixel.
+    """
+    return lines_through((spans,), window, sideways)[0]
+
+
+def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLERANCE) -> list[Line]:
+    """A chain as of `line_through` for each of *many*, worked out together: half the work of a chain is fixed."""
+    lengths = [len(spans.time0) for spans in many]
+    if not any(lengths):
+        return [Line(np.empty(0), np.empty(0)) for _ in many]
+    spans = many[0] if len(many) == 1 else Spans(*map(np.concatenate, zip(*many, strict=True)))
+    scale = -window.px_per_value
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        # In pixels from here on: where a span begins and how wide it is, then its cubic.
+        table = np.stack(
+            (
+                window.x_from_time(spans.time0),
+                (spans.time1 - spans.time0) * window.px_per_second,
+                window.y_from_value(spans.d),
+                spans.c * scale,
+                spans.b * scale,
+                spans.a * scale,
+            )
+        )
+        if table[1].max() > window.width:
+            table = _seen_part(table, window)
+        n = _pieces(table, sideways)
+        # A span ends where the next one begins, but for steps: there the line goes on upright.
+        joined = np.abs(table[2:, :-1].sum(axis=0) - table[2, 1:]) < 0.01
+        borders = np.cumsum(lengths)[:-1]
+        joined[borders[(borders > 0) & (borders < len(n))] - 1] = False
+        points = n + 1
+        points[:-1] -= joined
+        ends = np.cumsum(points)
+        starts = ends - points
+        which = np.repeat(np.arange(len(n)), points)
+        u = (np.arange(ends[-1]) - starts[which]) / n[which]
+        _set_extrema(u, table, n, starts)
+        x0, wide, d, c, b, a = table[:, which]
+        x, y = x0 + u * wide, d + u * (c + u * (b + u * a))
+    near = y.min() >= -FAR and y.max() <= FAR and x.min() >= -FAR and x.max() <= FAR
+    cuts = np.concatenate(([0], ends))[borders]
+    lines = map(Line, np.split(x, cuts), np.split(y, cuts)) if len(many) > 1 else (Line(x, y),)
+    return list(lines) if near else [kept_near(*line) for line in lines]
+
+
+def _seen_part(table: Floats, window: Window) -> Floats:
+    """Spans wider than the window cut down to what is seen of them: pieces that nobody sees would take them all."""
+    x0, wide, d, c, b, a = table
+    margin = 64.0 * window.unit
+    cut = wide > window.width
+    u0 = np.where(cut, np.clip((window.left - margin - x0) / wide, 0.0, 1.0), 0.0)
+    u1 = np.where(cut, np.clip((window.right + margin - x0) / wide, 0.0, 1.0), 1.0)
+    part = u1 - u0
+    return np.stack(
+        (
+            x0 + u0 * wide,
+            part * wide,
+            d + u0 * (c + u0 * (b + u0 * a)),
+            part * (c + u0 * (2 * b + u0 * (3 * a))),
+            part * part * (b + u0 * (3 * a)),
+            part * part * part * a,
+        )
+    )
+
+
+def _pieces(table: Floats, sideways: float) -> NDArray[np.intp]:
+    """Into how many straight pieces each span is cut."""
+    _, wide, _, _, b, a = table
+    # A chord of a parabola leaves it by an eighth of the second derivative times its length squared; two points
+    # moved onto extrema may stretch the piece between them to twice its length.
+    bend = np.maximum(np.abs(b), np.abs(b + 3 * a))
+    pieces = np.sqrt(bend * (1 / TOLERANCE))
+    # However steep it is, a cubic leaves a piece that only rises or falls sideways, by 0.39 of its width at most.
+    pieces = np.minimum(pieces, wide * (0.8 / sideways))
+    if not pieces.max() <= MOST_PIECES:
+        pieces = np.nan_to_num(pieces, nan=MOST_PIECES, posinf=MOST_PIECES)
+    counts: NDArray[np.intp] = np.ceil(np.clip(pieces, 1, MOST_PIECES)).astype(np.intp)
+    return counts
+
+
+def _set_extrema(u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[np.intp]) -> None:
+    """Move the nearest inner point of each span onto each extremum; a span of one piece has none worth a point."""
+    bent = np.flatnonzero(n > 1)
+    if not len(bent):
+        return
+    a, b, c = 3 * table[5, bent], table[4, bent], table[3, bent]
+    root = np.sqrt(np.maximum(b * b - a * c, 0.0))
+    q = -(b + np.copysign(root, b))
+    for r in (q / a, c / q):
+        hit = np.flatnonzero((r > 0) & (r < 1))
+        if len(hit):
+            pieces, place = n[bent[hit]], r[hit]
+            at = np.clip(np.rint(place * pieces), 1, pieces - 1).astype(np.intp)
+            u[starts[bent[hit]] + at] = place
+
+
+def kept_near(x: Floats, y: Floats) -> Line:
+    """The chain cut where it leaves the pixels that Qt can paint; the slopes of what stays are kept."""
+    y = np.clip(np.nan_to_num(y, nan=0.0), -HUGE, HUGE)
+    for limit in (FAR, -FAR):
+        at = np.flatnonzero((y[:-1] - limit) * (y[1:] - limit) < 0)
+        if len(at):
+            part = (limit - y[at]) / (y[at + 1] - y[at])
+            x = np.insert(x, at + 1, x[at] + part * (x[at + 1] - x[at]))
+            y = np.insert(y, at + 1, limit)
+    return Line(np.clip(x, -FAR, FAR), np.clip(y, -FAR, FAR))
+
+
+def dashes(line: Line, pattern: tuple[float, ...], anchor: float) -> Floats:
+    """The drawn pieces (n, 4) of x0, y0, x1, y1 of a chain under a dash pattern (drawn, gap, ... in pixels).
+
+    Dashes are counted along x from *anchor*, not along the chain: an edit moves no dash beside it. Steps stay whole.
+    """
+    x, y = line
+    if len(x) < 2:
+        return np.empty((0, 4))
+    marks = _marks(pattern, anchor, float(x[0]), float(x[-1]))
+    inner = marks[(marks > x[0]) & (marks < x[-1])]
+    after = np.searchsorted(x, inner)
+    px = np.insert(x, after, inner)
+    py = np.insert(y, after, np.interp(inner, x, y))
+    drawn = (np.searchsorted(marks, (px[:-1] + px[1:]) / 2, "right") - 1) % len(pattern) % 2 == 0
+    upright = px[:-1] == px[1:]
+    pieces: Floats = np.stack((px[:-1], py[:-1], px[1:], py[1:]), axis=1)
+    return pieces.compress(drawn | upright & (py[:-1] != py[1:]), axis=0)
+
+
+def straight_dashes(
+    x0: float, x1: float, y0: float, slope: float, pattern: tuple[float, ...], anchor: float, seen: tuple[float, float]
+) -> Floats:
+    """As `dashes`, of a line from x0, y0 to x1 that rises by *slope* a pixel; only pieces that touch *seen* in x."""
+    if abs(slope) * max(abs(x1 - x0), 1.0) + abs(y0) > FAR:
+        edges = [x0 + (limit - y0) / slope for limit in (-FAR, FAR)] if slope else [x0, x0]
+        low, high = max(x0, min(edges)), min(x1, max(edges))
+    else:
+        low, high = x0, x1
+    starts, ends = _drawn(pattern, anchor, *seen)
+    first, last = np.searchsorted(ends, low, "right"), np.searchsorted(starts, high)
+    starts, ends = np.maximum(starts[first:last], low), np.minimum(ends[first:last], high)
+    return np.stack((starts, y0 + (starts - x0) * slope, ends, y0 + (ends - x0) * slope), axis=1)
+
+
+@lru_cache(maxsize=4)
+def _drawn(pattern: tuple[float, ...], anchor: float, x0: float, x1: float) -> tuple[Floats, Floats]:
+    """(begins, ends) of the drawn dashes, the same for all curves of a picture."""
+    marks = _marks(pattern, anchor, x0, x1)
+    return marks[::2], marks[1::2]
+
+
+def _marks(pattern: tuple[float, ...], anchor: float, x0: float, x1: float) -> Floats:
+    """Where dashes begin and end, whole turns of the pattern from one at or before *x0* to one at or after *x1*."""
+    period = float(sum(pattern))
+    turns = np.arange(np.floor((x0 - anchor) / period), np.floor((x1 - anchor) / period) + 1)
+    marks: Floats = anchor + turns[:, None] * period + np.cumsum((0.0, *pattern[:-1]))
+    return marks.reshape(-1)
