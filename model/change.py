@@ -241,11 +241,15 @@ def differing(changes: Sequence[Change]) -> list[Change]:
         if isinstance(change, Splice):
             by_channel.setdefault(change.channel, []).append(change)
     same = {channel for channel, splices in by_channel.items() if _cancel_out(splices)}
-    return [
-        change
-        for change in changes
-        if (change.channel not in same if isinstance(change, Splice) else change.before != change.after)
-    ]
+    return [change for change in changes if not _in_vain(change, same)]
+
+
+def _in_vain(change: Change, same: set[Channel]) -> bool:
+    if isinstance(change, Splice):
+        return change.channel in same
+    if isinstance(change, Setting):
+        return repr(change.before) == repr(change.after)  # 0.0 and -0.0 are equal, and yet two states
+    return change.before == change.after
 
 
 def _cancel_out(splices: list[Splice]) -> bool:

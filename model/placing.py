@@ -13,6 +13,7 @@ from model.keyframe import KEY_DTYPE, Run
 # A splice costs about as much as some hundred keys in it, so places with no more keys than this between them share one;
 # what an undo step of one key holds stays below 64 KiB.
 FEW = 512
+FEW_EACH = 16
 MOST_SPLICES = 64
 
 NO_KEYS: Run = np.empty(0, KEY_DTYPE)
@@ -86,7 +87,7 @@ def _clusters(channel: Channel, places: Floats, slack: float) -> list[tuple[floa
     They are more than twice *slack* apart, so that no key falls to two of them.
     """
     first, last = float(places[0]), float(places[-1])
-    if len(places) == 1 or channel.count_between(first, last) <= 16 * len(places) + FEW:
+    if len(places) == 1 or channel.count_between(first, last) <= FEW_EACH * len(places) + FEW:
         return [(first, last)]
     gaps = places[1:] - places[:-1]
     wide = np.arange(len(gaps))

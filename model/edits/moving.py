@@ -117,18 +117,22 @@ def scale(
         rows = keys.copy()
         with np.errstate(over="ignore"):
             if f_value != 1.0:
-                rows["value"] = clamped(center_value + (keys["value"] - center_value) * f_value)
+                rows["value"] = _scaled(keys["value"], center_value, f_value)
             if f_value != f_time:
                 _scale_slopes(rows, f_value / f_time)
             slack = 0.0
             if f_time != 1.0:
-                rows["time"] = clamped(center_time + (keys["time"] - center_time) * f_time)
+                rows["time"] = _scaled(keys["time"], center_time, f_time)
                 if f_time < 0.0:
                     rows = _mirrored(rows)
                 rows["time"] = strictly_increasing(rows["time"])
                 slack = rounding_slack(keys, rows)
         changes += placed(channel, keys, rows, slack=slack)
     return changes
+
+
+def _scaled(numbers: Floats, center: float, factor: float) -> Floats:
+    return clamped(center + clamped(clamped(numbers - center) * factor))
 
 
 def _scale_slopes(rows: Run, factor: float) -> None:
