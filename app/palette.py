@@ -76,7 +76,10 @@ class EntryList(QAbstractListModel):
 
     def filter(self, query: str) -> None:
         """Keep what fits *query*; what can run now comes before what cannot."""
-        scored = [(fitness(query, f"{entry.title} {entry.place}"), entry) for entry in self._all]
+        scored = [
+            (max(1.5 * fitness(query, entry.title), fitness(query, f"{entry.title} {entry.place}")), entry)
+            for entry in self._all
+        ]
         fitting = [(score, entry) for score, entry in scored if score > 0]
         if query.strip():
             fitting.sort(key=lambda pair: (bool(pair[1].unmet), -pair[0]))

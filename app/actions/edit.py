@@ -258,7 +258,7 @@ EDIT_ACTIONS = (
     Action(
         id="edit.select_all",
         menu="Edit/Select",
-        label="&All",
+        label="Select &All",
         function=lambda w: _select(w, -INFINITY, INFINITY),
         shortcuts=(QKeySequence.StandardKey.SelectAll,),
         tip="Select every key of the shown channels",
@@ -267,7 +267,7 @@ EDIT_ACTIONS = (
     Action(
         id="edit.select_none",
         menu="Edit/Select",
-        label="&None",
+        label="Select &None",
         function=lambda w: setattr(w.session, "selection", Selection.NONE),
         shortcuts=("Ctrl+Shift+A",),
         tip="Select nothing",
@@ -276,7 +276,7 @@ EDIT_ACTIONS = (
     Action(
         id="edit.select_inverse",
         menu="Edit/Select",
-        label="&Inverse",
+        label="Select &Inverse",
         function=_select_inverse,
         shortcuts=("Ctrl+I",),
         tip="Select the keys of the shown channels that are not selected",
@@ -285,7 +285,7 @@ EDIT_ACTIONS = (
     Action(
         id="edit.select_channel",
         menu="Edit/Select",
-        label="All of the Active &Channel",
+        label="Select All of the Active &Channel",
         function=_select_channel,
         shortcuts=("Ctrl+L",),
         tip="Select every key of the active channel",
@@ -295,7 +295,7 @@ EDIT_ACTIONS = (
     Action(
         id="edit.select_before",
         menu="Edit/Select",
-        label="&Before Playhead",
+        label="Select &Before Playhead",
         function=lambda w: _select(w, -INFINITY, w.session.playhead),
         shortcuts=("[",),
         tip="Select the keys of the shown channels up to the playhead",
@@ -304,7 +304,7 @@ EDIT_ACTIONS = (
     Action(
         id="edit.select_after",
         menu="Edit/Select",
-        label="A&fter Playhead",
+        label="Select A&fter Playhead",
         function=lambda w: _select(w, w.session.playhead, INFINITY),
         shortcuts=("]",),
         tip="Select the keys of the shown channels from the playhead on",

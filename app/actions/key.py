@@ -100,7 +100,7 @@ KEY_ACTIONS = (
         Action(
             id=f"key.{name}{size}",
             menu="Key/Nudge",
-            label=f"{label}{factor}",
+            label=f"Nudge {label}{factor}",
             function=partial(nudge, sign * count),
             shortcuts=(f"{held}{key}",),
             tip=f"Move the selected keys {where} by {count:g} {step}",

@@ -21,7 +21,7 @@ def typed(palette: CommandPalette, text: str) -> list[str]:
 
 def test_enter_runs_the_best_command(qtbot: QtBot, window: MainWindow) -> None:
     palette = opened(qtbot, window)
-    assert typed(palette, "sel all")[0] == "All"
+    assert typed(palette, "sel all")[0] == "Select All"
     QTest.keyClick(palette.field, Qt.Key.Key_Return)
     assert window.session.selection.count == 6
 
