@@ -195,21 +195,22 @@ class Channel(Curve):
         rows = self._rows
         rank0 = splicing.rank_of_run(rows, before, after)
         rank1 = rank0 + len(before)
-        splicing.check_run(rows, rank0, rank1, after)
-        ids, next_id = splicing.ids_for(rows, before, after, self._next_id)
-        if ids is not None:
-            after = after.copy()
-            after["id"] = ids
-        old = splicing.outer(rows, rank0, rank1)
-        old_size = rows.size
-        old_times = (float(before["time"][0]), float(before["time"][-1])) if len(before) else (inf, -inf)
-        moved0, moved1 = rows.replace(rank0, rank1, after)
+        old, old_size = splicing.outer(rows, rank0, rank1), rows.size
+        minus_zero = splicing.check_run(after, old.time_before, old.time_after)
+        same_ids = len(before) == len(after) and bool((before["id"] == after["id"]).all())
+        if not same_ids:
+            ids, self._next_id = splicing.ids_for(rows, before, after, self._next_id)
+            if ids is not None:
+                after = after.copy()
+                after["id"] = ids
+        rows.minus_zero |= minus_zero
+        moved0, moved1 = rows.replace(rank0, rank1, after, same_ids=same_ids)
         rank1 = rank0 + len(after)
-        splicing.rebuild(rows, min(moved0, rank0 - 2), max(moved1, rank1 + 1))
-        self._next_id = next_id
+        splicing.rebuild(rows, min(moved0, rank0), max(moved1, rank1))
         self._changed()
         if not old_size or not rows.size:
             return -inf, inf, rank0, rank1
+        old_times = (float(before["time"][0]), float(before["time"][-1])) if len(before) else (inf, -inf)
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
         return t0, t1, rank0, rank1
 

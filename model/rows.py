@@ -66,6 +66,7 @@ class Rows:
         self.mark_grid = np.zeros((3, rows, width), np.uint8)
         self.id_grid = np.zeros((rows, width), np.int32)
         self.numbers = self.number_grid.reshape(8, -1)
+        self.bits = self.numbers.view(np.int64)
         self.marks = self.mark_grid.reshape(3, -1)
         self.ids = self.id_grid.reshape(-1)
         self.times = self.numbers[TIME]
@@ -144,12 +145,12 @@ class Rows:
         if rank0 >= rank1:
             return
         row0, place0 = self.place(rank0)
-        row1, place1 = self.place(rank1 - 1)
-        if row0 == row1:
-            yield Block(rank0, row0, 1, place0, rank1 - rank0, self.held(row0))
+        held = self.held(row0)
+        if place0 + rank1 - rank0 <= held:
+            yield Block(rank0, row0, 1, place0, rank1 - rank0, held)
             return
+        row1, place1 = self.place(rank1 - 1)
         if place0:
-            held = self.held(row0)
             yield Block(rank0, row0, 1, place0, held - place0, held)
             row0 += 1
         held = self.held(row1)
@@ -253,14 +254,14 @@ class Rows:
 
     # --- replacing
 
-    def replace(self, rank0: int, rank1: int, run: Run) -> tuple[int, int]:
+    def replace(self, rank0: int, rank1: int, run: Run, *, same_ids: bool) -> tuple[int, int]:
         """Put *run* in the place of the keys of ranks rank0 to rank1 (which may be none).
 
-        Gives the ranks of all keys whose coefficients must be worked out anew because they are new or have moved.
+        *same_ids* says that both have the same ids in the same order. Gives the ranks of all keys whose coefficients
+        must be worked out anew because they are new or have moved.
         """
         gone, come = rank1 - rank0, len(run)
         if gone == come:
-            same_ids = self.same_ids(rank0, run["id"])
             if not same_ids:
                 self._forget(rank0, rank1)
             self._store(rank0, run, ids_too=not same_ids)

@@ -1,6 +1,6 @@
 """What a splice must satisfy, what it rebuilds (slopes by rule, coefficients), and how far its effect reaches."""
 
-from math import inf
+from math import copysign, inf, isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -24,14 +24,17 @@ _OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
 
 
 class Outer(NamedTuple):
-    """The bits of a channel just outside a run, and at its ends, that a splice of the run may change."""
+    """What a splice may change outside its run: the tangents of the neighbours, and how the ends go on.
+
+    Numbers whose sign of zero matters are here as the integers that have their bits.
+    """
 
     time_before: float  # of the neighbour before the run; -inf without one
-    time_after: float
-    slope_before: bytes  # slope in of the neighbour before
-    slope_after: bytes  # slope out of the neighbour after
-    first: tuple[bytes, bytes, bytes]  # time, value, slope in of the first key
-    last: tuple[bytes, bytes, bytes]  # time, value, slope out of the last key
+    time_after: float  # of the neighbour after; inf without one
+    slope_before: int  # slope in of the neighbour before
+    slope_after: int  # slope out of the neighbour after
+    first: tuple[int, int, int]  # time, value and slope in of the first key
+    last: tuple[int, int, int]  # time, value and slope out of the last key
 
 
 # --- what a run must be
@@ -46,47 +49,76 @@ def rank_of_run(rows: Rows, before: Run, after: Run) -> int:
     except KeyGoneError as error:
         raise ValueError(f"the run to replace is not in the channel: {error}") from None
     end = rank + len(before)
-    if end > rows.size or not rows.same_ids(rank, before["id"]):
+    if end > rows.size or (len(before) > 1 and not rows.same_ids(rank, before["id"])):
         raise ValueError("the run to replace is not what the channel holds now")
     return rank
 
 
-def check_run(rows: Rows, rank0: int, rank1: int, run: Run) -> None:
-    """Raise ValueError, naming key and field, unless *run* can stand where the keys rank0 to rank1 stand."""
-    last = -inf if rank0 == 0 else float(rows.times[rows.slot(rank0 - 1)])
+def check_run(run: Run, time_before: float, time_after: float) -> bool:
+    """Raise ValueError, naming key and field, unless *run* can stand between keys of these times.
+
+    Gives whether a value is -0.0.
+    """
+    if len(run) <= FEW:
+        return _check_few(run, time_before, time_after)
+    minus_zero = False
+    last = time_before
     for at in range(0, len(run), AT_A_TIME):
         part = run[at : at + AT_A_TIME]
-        for field, _ in NUMBER_FIELDS:
-            fine = np.isfinite(part[field])
-            if not fine.all():
-                bad = int(fine.argmin())
-                raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; it must be finite")
-        for field, known in (("rule_in", _IN_RULES), ("rule_out", _OUT_RULES)):
-            fine = known[part[field]]
-            if not fine.all():
-                bad = int(fine.argmin())
-                raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; there is no such rule on this side")
-        values = part["value"]
-        if not rows.minus_zero and not values.all():
-            rows.minus_zero = bool(np.signbit(values[values == 0.0]).any())
-        times = part["time"]
-        if times[0] <= last:
-            raise ValueError(f"key {at}: time {float(times[0])!r} is not after {last!r}, the time of the key before")
-        turned = times[1:] <= times[:-1]
-        if turned.any():
-            bad = int(turned.argmax()) + 1
-            here, before = float(times[bad]), float(times[bad - 1])
-            raise ValueError(f"key {at + bad}: time {here!r} is not after {before!r}, the time of the key before")
+        numbers = np.stack([part[field] for field, _ in NUMBER_FIELDS])
+        rules_fine = _IN_RULES[part["rule_in"]] & _OUT_RULES[part["rule_out"]]
+        if not (np.isfinite(numbers).all() and rules_fine.all()):
+            _refuse_numbers_or_rules(part, at)
+        times, values = numbers[TIME], numbers[VALUE]
+        if times[0] <= last or (times[1:] <= times[:-1]).any():
+            before = np.append(last, times[:-1])
+            bad = int((times <= before).argmax())
+            what = f"key {at + bad}: time {float(times[bad])!r} is not after {float(before[bad])!r}"
+            raise ValueError(f"{what}, the time of the key before")
         last = float(times[-1])
-    if len(run) and rank1 < rows.size and last >= (following := float(rows.times[rows.slot(rank1)])):
-        raise ValueError(f"key {len(run) - 1}: time {last!r} is not before {following!r}, the time of the key after")
+        if not values.all():
+            minus_zero |= bool(np.signbit(values[values == 0.0]).any())
+    _check_last(run, last, time_after)
+    return minus_zero
+
+
+def _check_few(run: Run, last: float, time_after: float) -> bool:
+    """The same for a few keys, in Python numbers."""
+    minus_zero = False
+    for place, (time, value, slope_in, slope_out, rule_in, rule_out, _, _) in enumerate(run.tolist()):
+        if not (isfinite(time) and isfinite(value) and isfinite(slope_in) and isfinite(slope_out)):
+            _refuse_numbers_or_rules(run, 0)
+        if not (_IN_RULES[rule_in] and _OUT_RULES[rule_out]):
+            _refuse_numbers_or_rules(run, 0)
+        if time <= last:
+            raise ValueError(f"key {place}: time {time!r} is not after {last!r}, the time of the key before")
+        last = time
+        minus_zero |= value == 0.0 and copysign(1.0, value) < 0.0
+    _check_last(run, last, time_after)
+    return minus_zero
+
+
+def _check_last(run: Run, last: float, time_after: float) -> None:
+    if len(run) and last >= time_after:
+        raise ValueError(f"key {len(run) - 1}: time {last!r} is not before {time_after!r}, the time of the key after")
+
+
+def _refuse_numbers_or_rules(part: Run, at: int) -> None:
+    for field, _ in NUMBER_FIELDS:
+        fine = np.isfinite(part[field])
+        if not fine.all():
+            bad = int(fine.argmin())
+            raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; it must be finite")
+    for field, known in (("rule_in", _IN_RULES), ("rule_out", _OUT_RULES)):
+        fine = known[part[field]]
+        if not fine.all():
+            bad = int(fine.argmin())
+            raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; there is no such rule on this side")
 
 
 def ids_for(rows: Rows, before: Run, after: Run, next_id: int) -> tuple[NDArray[np.int64] | None, int]:
     """(ids for *after*, or None if it can keep its own; the next id to hand out); ValueError for ids it cannot have."""
     ids = after["id"]
-    if len(ids) == len(before) and np.array_equal(ids, before["id"]):
-        return None, next_id
     if not len(ids):
         return None, next_id
     lowest, highest = int(ids.min()), int(ids.max())
@@ -115,16 +147,45 @@ def ids_for(rows: Rows, before: Run, after: Run, next_id: int) -> tuple[NDArray[
 
 
 def rebuild(rows: Rows, rank0: int, rank1: int) -> None:
-    """Work out the slopes of the keys rank0 to rank1, and the coefficients of the spans they start."""
-    rank0, rank1 = max(rank0, 0), min(rank1, rows.size)
-    if rank1 - rank0 <= FEW:
-        _rebuild_few(rows, rank0, rank1)
+    """Work out what follows from the keys of ranks rank0 to rank1 being new.
+
+    That is their slopes and those of their neighbours, and the coefficients of all spans that these touch.
+    """
+    slopes0, slopes1 = max(rank0 - 1, 0), min(rank1 + 1, rows.size)
+    spans0 = max(rank0 - 2, 0)
+    if slopes1 - spans0 <= 2 * FEW:
+        _rebuild_few(rows, spans0, slopes0, slopes1)
         return
-    for begin in range(rank0, rank1, AT_A_TIME):
-        _rebuild_many(rows, begin, min(begin + AT_A_TIME, rank1))
+    for begin in range(spans0, slopes1, AT_A_TIME):
+        _rebuild_many(rows, begin, min(begin + AT_A_TIME, slopes1))
+
+
+def _rebuild_few(rows: Rows, spans0: int, slopes0: int, slopes1: int) -> None:
+    # One key more on each side, for chords and for the last span.
+    left, right = max(spans0 - 1, 0), min(slopes1 + 1, rows.size)
+    times, values, slopes_in, slopes_out = rows.columns(left, right, stop=SLOPE_OUT + 1).tolist()
+    rules_in, rules_out = rows.rules(left, right).tolist()
+    n = right - left
+    for i in range(slopes0 - left, slopes1 - left):
+        j, k = max(i - 1, 0), min(i + 2, n)
+        slopes_in[i], slopes_out[i] = slope_pair(
+            times[j:k], values[j:k], i - j, rules_in[i], rules_out[i], slopes_in[i], slopes_out[i]
+        )
+    out = []
+    for i in range(spans0 - left, slopes1 - left):
+        a = b = c = 0.0
+        d_time = 1.0
+        if i + 1 < n:
+            d_time = times[i + 1] - times[i]
+            if rules_out[i] != TangentRule.STEP:
+                a, b, c = hermite.coefficients(d_time, values[i], values[i + 1], slopes_out[i], slopes_in[i + 1])
+        out.append((slopes_in[i], slopes_out[i], a, b, c, d_time))
+    if out:
+        rows.write(spans0, SLOPE_IN, np.array(out).T)
 
 
 def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
+    """Slopes and coefficients of the keys rank0 to rank1; slopes worked out twice come out the same."""
     # One key before, one after for the last span, and that key's other neighbour for its slope.
     left, right = max(rank0 - 1, 0), min(rank1 + 2, rows.size)
     n = rows.columns(left, right, stop=SLOPE_OUT + 1)
@@ -136,8 +197,7 @@ def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
     out[0], out[1] = slope_in[here], slope_out[here]
     count = spans.stop - spans.start
     with np.errstate(all="ignore"):
-        d_time = n[TIME, after] - n[TIME, spans]
-        out[5, :count] = d_time
+        d_time = np.subtract(n[TIME, after], n[TIME, spans], out=out[5, :count])
         out[2, :count], out[3, :count], out[4, :count] = hermite.coefficients(
             d_time, n[VALUE, spans], n[VALUE, after], slope_out[spans], slope_in[after]
         )
@@ -149,46 +209,28 @@ def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
     rows.write(rank0, SLOPE_IN, out)
 
 
-def _rebuild_few(rows: Rows, rank0: int, rank1: int) -> None:
-    left, right = max(rank0 - 1, 0), min(rank1 + 2, rows.size)
-    times, values, slopes_in, slopes_out = rows.columns(left, right, stop=SLOPE_OUT + 1).tolist()
-    rules_in, rules_out = rows.rules(left, right).tolist()
-    n = right - left
-    for i in range(rank0 - left, min(rank1 + 1, rows.size) - left):
-        j, k = max(i - 1, 0), min(i + 1, n - 1)
-        slopes_in[i], slopes_out[i] = slope_pair(
-            times[j : k + 1], values[j : k + 1], i - j, rules_in[i], rules_out[i], slopes_in[i], slopes_out[i]
-        )
-    out = []
-    for i in range(rank0 - left, rank1 - left):
-        a = b = c = 0.0
-        d_time = 1.0
-        if i + 1 < n:
-            d_time = times[i + 1] - times[i]
-            if rules_out[i] != TangentRule.STEP:
-                a, b, c = hermite.coefficients(d_time, values[i], values[i + 1], slopes_out[i], slopes_in[i + 1])
-        out.append((slopes_in[i], slopes_out[i], a, b, c, d_time))
-    if out:
-        rows.write(rank0, SLOPE_IN, np.array(out).T)
-
-
 # --- how far a splice reaches
 
 
 def outer(rows: Rows, rank0: int, rank1: int) -> Outer:
     """What lies around the keys of ranks rank0 to rank1."""
-    n = rows.numbers
-    time_before, time_after, slope_before, slope_after = -inf, inf, b"", b""
+    bits = rows.bits
+    time_before, time_after, slope_before, slope_after = -inf, inf, 0, 0
     if rank0 > 0:
         slot = rows.slot(rank0 - 1)
-        time_before, slope_before = float(n[TIME, slot]), n[SLOPE_IN, slot].tobytes()
+        time_before, slope_before = float(rows.times[slot]), int(bits[SLOPE_IN, slot])
     if rank1 < rows.size:
         slot = rows.slot(rank1)
-        time_after, slope_after = float(n[TIME, slot]), n[SLOPE_OUT, slot].tobytes()
-    last = rows.slot(rows.size - 1) if rows.size else 0
-    first_bits = (n[TIME, 0].tobytes(), n[VALUE, 0].tobytes(), n[SLOPE_IN, 0].tobytes())
-    last_bits = (n[TIME, last].tobytes(), n[VALUE, last].tobytes(), n[SLOPE_OUT, last].tobytes())
-    return Outer(time_before, time_after, slope_before, slope_after, first_bits, last_bits)
+        time_after, slope_after = float(rows.times[slot]), int(bits[SLOPE_OUT, slot])
+    first, last = bits[:, 0].tolist(), bits[:, -1].tolist()
+    return Outer(
+        time_before,
+        time_after,
+        slope_before,
+        slope_after,
+        (first[TIME], first[VALUE], first[SLOPE_IN]),
+        (last[TIME], last[VALUE], last[SLOPE_OUT]),
+    )
 
 
 def reach(
@@ -211,7 +253,7 @@ def reach(
     elif old.slope_before != new.slope_before and rank0 > 1:
         t0 = float(rows.times[rows.slot(rank0 - 2)])
     if t1 == inf:
-        t1 = max(old_times[1], float(rows.times[rows.slot(rows.size - 1)]))
+        t1 = max(old_times[1], float(rows.times[-1]))
     elif old.slope_after != new.slope_after and rank1 + 1 < rows.size:
         t1 = float(rows.times[rows.slot(rank1 + 1)])
     if _goes_on_differently(old.first, new.first, pre):
@@ -221,7 +263,7 @@ def reach(
     return t0, t1
 
 
-def _goes_on_differently(old: tuple[bytes, bytes, bytes], new: tuple[bytes, bytes, bytes], mode: Extrapolation) -> bool:
+def _goes_on_differently(old: tuple[int, int, int], new: tuple[int, int, int], mode: Extrapolation) -> bool:
     """Whether the curve beyond an end key changed, from that key's time, value and outward slope."""
     if EXTRAPOLATIONS[mode].repeats:
         return True
