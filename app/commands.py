@@ -16,6 +16,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.formats import FORMATS, FormatError, format_of_path, losses, read_clip, sniff
 from model.formats.skel import ANGLE
+from model.hermite import Floats
 from model.keyframe import TangentRule
 
 _MOST_ROWS: Final = 10_000_000
@@ -135,20 +136,20 @@ def _evaluate(arguments: argparse.Namespace) -> None:
         raise CommandError("hermite evaluate: give either --times or --from, --to and --rate")
     clip = read_clip(arguments.file, skeleton=arguments.skel)
     channels = _chosen(clip, arguments.channel)
+    pieces = _pieces(clip, arguments)
     header = io.StringIO()
     csv.writer(header, lineterminator="\n").writerow(["time", *(channel.name for channel in channels)])
     _print(header.getvalue())
-    for times in _pieces(clip, arguments):
+    for times in pieces:
         columns = [times, *(channel.evaluate(times) for channel in channels)]
         texts = [map(repr, column.tolist()) for column in columns]
         _print("\n".join(map(",".join, zip(*texts, strict=True))) + "\n")
 
 
-def _pieces(clip: Clip, arguments: argparse.Namespace) -> Iterator[np.ndarray[tuple[int], np.dtype[np.float64]]]:
-    """The times asked for, some at once."""
+def _pieces(clip: Clip, arguments: argparse.Namespace) -> Iterator[Floats]:
+    """The times asked for, some at once; CommandError before the first if they make no sense."""
     if arguments.times:
-        yield np.array(arguments.times, np.float64)
-        return
+        return iter([np.array(arguments.times, np.float64)])
     start = clip.start if arguments.start is None else arguments.start
     end = clip.end if arguments.end is None else arguments.end
     rate = clip.frame_rate if arguments.rate is None else arguments.rate
@@ -158,7 +159,10 @@ def _pieces(clip: Clip, arguments: argparse.Namespace) -> Iterator[np.ndarray[tu
     steps = (end - start) * rate * (1 + 1e-12) + 1e-9
     if not steps < _MOST_ROWS:
         raise CommandError(f"hermite evaluate: that is {steps:.3g} samples; at most {_MOST_ROWS:,} are given")
-    count = int(steps) + 1
+    return _pieces_at_rate(start, end, rate, int(steps) + 1)
+
+
+def _pieces_at_rate(start: float, end: float, rate: float, count: int) -> Iterator[Floats]:
     for first in range(0, count, _ROWS_AT_ONCE):
         numbers = np.arange(first, min(first + _ROWS_AT_ONCE, count), dtype=np.float64)
         yield np.minimum(start + numbers / rate, end)
