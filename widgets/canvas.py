@@ -198,7 +198,9 @@ class Canvas(QGraphicsItem):
     def _on_changed(self, channel: Channel, t0: float, t1: float) -> None:
         if self._document.gesture is not None and channel not in self._touched:
             self._touched.add(channel)
-            self._restyle_quietly()
+            if self._traces is not None and any(trace.channel is channel for trace in self._traces[0]):
+                # Who is live has changed, but no pixel: it is drawn over the backdrop just as it was in it.
+                self._traces = self._stage = None
         self.backdrop.mark(channel, t0, t1)
         if self._document.session.shown(channel):
             self.repaint_times(t0, t1)
@@ -218,10 +220,6 @@ class Canvas(QGraphicsItem):
         if hint != stage.hint:
             stage.hint = hint
             self.repaint_all()
-
-    def _restyle_quietly(self) -> None:
-        """Who is live has changed, but no pixel: what is live is drawn over the backdrop just as it was in it."""
-        self._traces = self._stage = None
 
     def _on_gesture(self) -> None:
         if self._document.gesture is None and self._touched:

@@ -47,6 +47,8 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         self.document = document
         self.theme = Theme.current() if theme is None else theme
         self.view_range = START
+        # By device pixel ratio, and the logical one at 0; they live as long as the range and the size.
+        self._windows: dict[float, Window] = {}
         self._history = ViewHistory()
         self._last_step = -ONE_STEP
         self._rest = QPointF()
@@ -93,6 +95,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
     def event(self, event: QEvent) -> bool:
         """Keys and losses of focus go to the mouse router first."""
         if event.type() in (QEvent.Type.FontChange, QEvent.Type.DevicePixelRatioChange) and hasattr(self, "canvas"):
+            self._windows.clear()
             self.canvas.forget()
         return self._routed(event) or bool(super().event(event))
 
@@ -109,6 +112,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         """Keep the range, on more or fewer pixels."""
         super().resizeEvent(event)
         if hasattr(self, "canvas"):
+            self._windows.clear()
             self.canvas.prepareGeometryChange()
             self.canvas.reframe()
             self.view_changed.emit()
@@ -117,16 +121,22 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
 
     def window_at(self, ratio: float) -> Window:
         """The plot area in screen pixels, whole ones, at a device pixel ratio."""
-        size = QSizeF(self.viewport().size()) * ratio
-        left, top = round(VALUE_WIDTH * ratio), round(TIME_HEIGHT * ratio)
-        width, height = max(round(size.width()) - left, 1), max(round(size.height()) - top, 1)
-        return Window(left, top, width, height, *self.view_range, ratio)
+        window = self._windows.get(ratio)
+        if window is None:
+            size = QSizeF(self.viewport().size()) * ratio
+            left, top = round(VALUE_WIDTH * ratio), round(TIME_HEIGHT * ratio)
+            width, height = max(round(size.width()) - left, 1), max(round(size.height()) - top, 1)
+            window = self._windows[ratio] = Window(left, top, width, height, *self.view_range, ratio)
+        return window
 
     @property
     def window_now(self) -> Window:
         """The plot area in logical pixels."""
-        ratio = float(self.viewport().devicePixelRatioF())
-        return self.window_at(ratio).scaled(1 / ratio)
+        window = self._windows.get(0.0)
+        if window is None:
+            ratio = float(self.viewport().devicePixelRatioF())
+            window = self._windows[0.0] = self.window_at(ratio).scaled(1 / ratio)
+        return window
 
     @property
     def plot_rect(self) -> QRectF:
@@ -204,6 +214,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
                 self._history.leave(self.view_range)
             self._last_step = now
         self.view_range = view
+        self._windows.clear()
         self.getPlotItem().vb.setRange(xRange=view[:2], yRange=view[2:], padding=0, disableAutoRange=False)
         self.canvas.reframe()
         self.view_changed.emit()

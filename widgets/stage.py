@@ -12,7 +12,7 @@ from model.channel import Channel
 from model.document import Document
 from model.keyframe import Run
 from model.sampling import Window
-from model.selection import Selection
+from model.selection import Ids, Selection
 from widgets.graph import Frame
 from widgets.hit_test import Hit
 from widgets.theme import Theme
@@ -58,6 +58,21 @@ class Stage:
     labels: tuple[Label, ...] = ()
     hint: str = ""
     _fonts: dict[float, QFont] = field(default_factory=dict)
+    _by_channel: dict[Channel, Trace] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._by_channel = {trace.channel: trace for trace in (*self.resting, *self.live)}
+
+    def trace_of(self, channel: Channel) -> Trace | None:
+        """How the channel is drawn; None if it is not shown."""
+        return self._by_channel.get(channel)
+
+    @property
+    def chosen(self) -> tuple[tuple[Trace, Ids], ...]:
+        """The shown channels with selected keys, and the ids of these."""
+        selection = self.selection
+        found = ((self._by_channel.get(channel), selection.ids(channel)) for channel in selection.channels)
+        return tuple((trace, ids) for trace, ids in found if trace is not None)
 
     @classmethod
     def at(cls, stage: "Stage", window: Window) -> "Stage":

@@ -64,9 +64,8 @@ def shown_handles(stage: Stage) -> list[tuple[Trace, Handles]]:
     margin = LENGTH * window.unit
     t0, t1 = window.time_from_x(window.left - margin), window.time_from_x(window.right + margin)
     found: list[tuple[Trace, Keyframe]] = []
-    for trace in (*stage.resting, *stage.live):
-        ids = stage.selection.ids(trace.channel)
-        if not len(ids) or trace.channel.locked:
+    for trace, ids in stage.chosen:
+        if trace.channel.locked:
             continue
         run = selected_between(trace.channel, ids, t0, t1)
         if len(found) + len(run) > MOST:

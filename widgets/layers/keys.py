@@ -99,10 +99,7 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     window = stage.window
     reach = stage.px(SELECTED * 2)
     t0, t1 = window.time_from_x(x0 - reach), window.time_from_x(x1 + reach)
-    for trace in (*stage.resting, *stage.live):
-        ids = stage.selection.ids(trace.channel)
-        if not len(ids):
-            continue
+    for trace, ids in stage.chosen:
         run = selected_between(trace.channel, ids, t0, t1)
         _draw_run(painter, stage, run, stage.theme.key_selected, stage.px(SELECTED))
 
@@ -112,10 +109,8 @@ def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], 
     gesture = stage.document.gesture
     if gesture is None:
         return
-    shown = {trace.channel: trace for trace in traces}
     for channel, run in gesture.covered.items():
-        trace = shown.get(channel)
-        if trace is not None and len(run):
+        if stage.trace_of(channel) is not None:
             painter.setOpacity(0.6)
             _draw_run(painter, stage, run, stage.theme.ghost, stage.px(REST))
             painter.setOpacity(1.0)

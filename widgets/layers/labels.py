@@ -6,6 +6,8 @@ from typing import Final
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter
 
+from model.channel import Channel
+from model.sampling import Window
 from widgets.stage import Label, Stage
 from widgets.traces import Trace
 
@@ -89,11 +91,19 @@ def hint_of(stage: Stage) -> str:
     with_keys = [trace for trace in traces if len(trace.channel)]
     if not with_keys:
         return "No keys yet\nCtrl+click sets one, S keys all shown channels at the playhead"
-    for trace in with_keys:
-        low, high = trace.channel.extrema(window.t0, window.t1)
-        if low <= window.v1 and high >= window.v0:
-            return ""
+    if any(_seen(trace.channel, window) for trace in with_keys):
+        return ""
     return "Nothing in view\nPress A to see all"
+
+
+def _seen(channel: Channel, window: Window) -> bool:
+    """Whether any of the curve lies in the window; a few of its values mostly tell, and cost next to nothing."""
+    span = window.t1 - window.t0
+    for part in (0.5, 0.25, 0.75, 0.0, 1.0):
+        if window.v0 <= channel.value(window.t0 + part * span) <= window.v1:
+            return True
+    low, high = channel.extrema(window.t0, window.t1)
+    return low <= window.v1 and high >= window.v0
 
 
 def draw_hint(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:

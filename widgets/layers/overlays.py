@@ -23,10 +23,10 @@ def draw_hovered_curve(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     hover = stage.overlay.hover
     if hover is None or hover.kind != "curve":
         return
-    for trace in (*stage.resting, *stage.live):
-        if trace.channel is hover.channel and not trace.active:
-            color = stage.theme.channel_color(trace.channel, trace.place)
-            draw_curve(painter, stage, trace, color, x0, x1, min(trace.pixels(stage.window.unit) + 1, 4))
+    trace = None if hover.channel is None else stage.trace_of(hover.channel)
+    if trace is not None and not trace.active:
+        color = stage.theme.channel_color(trace.channel, trace.place)
+        draw_curve(painter, stage, trace, color, x0, x1, min(trace.pixels(stage.window.unit) + 1, 4))
 
 
 def draw_hover(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
