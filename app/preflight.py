@@ -153,6 +153,8 @@ def library_problem(needs: list[Need]) -> str | None:
         return None
     command = install_command(needs)
     remedy = " ".join(command) if command else "install them with your system's package manager"
+    if command and "apt-get" in command:
+        remedy = " ".join([*command[: command.index("apt-get")], "apt-get update"]) + " && " + remedy
     return f"Missing on this system: {', '.join(need.file for need in needs)}; mend it with: {remedy}"
 
 
