@@ -4,9 +4,10 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app import __version__
+from app.dialogs import close_buttons
 from widgets.theme import Theme
 
 BUILT_ON = ("PySide6-Essentials", "pyqtgraph", "numpy", "simpleeval")
@@ -43,12 +44,10 @@ class AboutDialog(QDialog):
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         text.setAccessibleName("About Hermite")
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        buttons.rejected.connect(self.close)
         row = QHBoxLayout()
         row.setSpacing(18)
         row.addWidget(picture)
         row.addWidget(text, 1)
         column = QVBoxLayout(self)
         column.addLayout(row)
-        column.addWidget(buttons)
+        column.addWidget(close_buttons(self))

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, QPoint
 from PySide6.QtWidgets import QMenu
 
 from model import edits
+from model.document import added_keys
 from model.selection import Selection
 from widgets.hit_test import Hit
 
@@ -103,4 +104,5 @@ class ContextMenu(QObject):
             self._window.document.do(
                 f"Insert key in {channel.name} at {hit.time:.6g} s",
                 lambda clip: edits.insert(clip, channel, hit.time),
+                selection=added_keys,
             )

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.dialogs import close_buttons
 from widgets.theme import Theme
 
 
@@ -71,10 +72,9 @@ class CrashBar(QFrame):
         where = QLabel(f"Also written to {self._log}")
         where.setTextFormat(Qt.TextFormat.PlainText)
         where.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons = close_buttons(dialog)
         copy = buttons.addButton("&Copy", QDialogButtonBox.ButtonRole.ActionRole)
         copy.clicked.connect(self._copy)
-        buttons.rejected.connect(dialog.close)
         column = QVBoxLayout(dialog)
         column.addWidget(text)
         column.addWidget(where)

@@ -13,6 +13,8 @@ from typing import TextIO
 from PySide6.QtCore import QMessageLogContext, QObject, QStandardPaths, QtMsgType, Signal, qInstallMessageHandler
 
 LOG_BYTES_KEPT = 256 * 1024
+# What Qt says of its platform without a screen, at every window that opens there.
+HARMLESS = "This plugin does not support"
 
 
 def log_path() -> Path:
@@ -89,7 +91,7 @@ class CrashReports(QObject):
             self.report(hook.exc_value, f"in {hook.object!r}")
 
     def _qt_message(self, kind: QtMsgType, context: QMessageLogContext, message: str) -> None:
-        if kind != QtMsgType.QtDebugMsg:
+        if kind != QtMsgType.QtDebugMsg and not message.startswith(HARMLESS):
             self._write(f"Qt {kind.name}", message)
 
 

@@ -8,7 +8,6 @@ from PySide6.QtGui import QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
-    QDialogButtonBox,
     QHeaderView,
     QLineEdit,
     QTableView,
@@ -17,33 +16,40 @@ from PySide6.QtWidgets import (
 )
 
 from app.actions import ACTIONS
+from app.dialogs import close_buttons
 from app.menus import shortcut_text
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
 
 MOUSE = (
-    ("Graph", "Click a key", "Select it; again to reach what lies under it"),
-    ("Graph", "Shift+click a key", "Add it to the selection, or take it out"),
-    ("Graph", "Alt+click a key", "Select all keys at its time"),
-    ("Graph", "Click a curve", "Make its channel the active one"),
-    ("Graph", "Double-click a curve", "Select all its keys"),
-    ("Graph", "Drag on empty ground", "Select what is in the box; Shift adds, Ctrl takes away"),
-    ("Graph", "Drag a selected key", "Move all selected keys"),
-    ("Graph", "Drag a handle", "Turn the tangent; its side becomes fixed; unified tangents turn together"),
-    ("Graph", "Ctrl+click a curve", "Insert a key without changing the curve's shape"),
-    ("Graph", "Shift while dragging", "Keep to the first direction"),
-    ("Graph", "Ctrl while dragging", "Snap if snapping is off, do not if it is on"),
-    ("Graph", "Alt while dragging", "Move at a tenth of the speed"),
-    ("Graph", "Esc or right button while dragging", "Cancel, as if nothing had been"),
-    ("Graph", "Right click", "Menu of what is under the mouse"),
-    ("Graph", "Middle button, or Alt+middle button", "Move the view"),
-    ("Graph", "Wheel", "Zoom in both directions at the mouse"),
-    ("Graph", "Ctrl+wheel", "Zoom in time"),
-    ("Graph", "Shift+wheel", "Zoom in value"),
-    ("Rulers", "Drag the time ruler", "Move the playhead"),
+    ("Select", "Click a key", "Select it; again on the same spot for what lies under it"),
+    ("Select", "Shift+click a key", "Add it to the selection, or take it out"),
+    ("Select", "Alt+click a key", "Select the keys of all shown channels at its time; with Shift add them"),
+    ("Select", "Click a curve", "Make its channel the active one"),
+    ("Select", "Double-click a curve", "Select all its keys"),
+    ("Select", "Drag on empty ground", "Select what is in the box; Shift adds, Ctrl takes out"),
+    ("Change", "Drag a key", "Move all selected keys, past their neighbours too"),
+    ("Change", "Drag a curve", "Move the two keys of that span"),
+    ("Change", "Drag a handle", "Turn the tangent; that side becomes fixed, and unified tangents turn together"),
+    ("Change", "Ctrl+click a curve", "Insert a key without changing the curve's shape"),
+    ("Change", "Drag the box of the scale tool", "Scale the selected keys in time and value"),
+    ("Change", "Drag with the retime tool", "Stretch the selected keys in time; the other end stays"),
+    ("While dragging", "Shift", "Keep to the first direction; a handle goes flat or along a chord"),
+    ("While dragging", "Ctrl", "Snap to frames if snapping is off, do not if it is on"),
+    ("While dragging", "Alt", "Move at a tenth of the speed"),
+    ("While dragging", "Esc or the right button", "Cancel, as if nothing had been"),
+    ("While dragging", "Hold at the edge of the graph", "Let the view follow"),
+    ("View", "Middle button", "Move the view"),
+    ("View", "Wheel, or pinch", "Zoom at the mouse"),
+    ("View", "Ctrl+wheel", "Zoom in time"),
+    ("View", "Shift+wheel", "Zoom in value"),
+    ("View", "Alt+right button", "Zoom by dragging: right or up comes nearer"),
+    ("Rulers", "Drag in the time ruler", "Move the playhead, or the start or end of the clip's range"),
+    ("Rulers", "Middle or right button in the time ruler", "Zoom in time"),
     ("Rulers", "Drag the value ruler", "Zoom in value"),
-    ("Channels", "Drop a file anywhere", "Open it"),
+    ("Anywhere", "Right click", "Menu of what is under the mouse"),
+    ("Anywhere", "Drop a file", "Open it; a .skel names the channels"),
 )
 
 
@@ -54,7 +60,7 @@ class TableDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(title)
-        self.resize(760, 560)
+        self.resize(min(1080, parent.width()), min(640, parent.height()))
         self.field = QLineEdit(placeholderText="Filter")
         self.field.setAccessibleName("Filter")
         self.field.setClearButtonEnabled(True)
@@ -73,14 +79,14 @@ class TableDialog(QDialog):
         self.table.setShowGrid(False)
         self.table.setWordWrap(False)
         self.table.verticalHeader().hide()
-        self.table.resizeColumnsToContents()
+        self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 8)
+        self.table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.table.horizontalHeader().setSectionResizeMode(len(headings) - 1, QHeaderView.ResizeMode.Stretch)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        buttons.rejected.connect(self.close)
+        self.table.resizeColumnsToContents()
         column = QVBoxLayout(self)
         column.addWidget(self.field)
         column.addWidget(self.table)
-        column.addWidget(buttons)
+        column.addWidget(close_buttons(self))
 
     def filter(self, query: str) -> None:
         """Show only the rows that hold every word of *query*."""

@@ -12,27 +12,34 @@ MOST_KEYS_LOOKED_AT = 1000
 
 
 class InHand(NamedTuple):
-    """The channels chosen in the tree, those whose curves are meant, and the rules that all selected keys share."""
+    """The channels chosen in the tree, those whose curves are meant, and what all selected keys share."""
 
     channels: list[Channel]
     curves: list[Channel]
     rule_in: TangentRule | None
     rule_out: TangentRule | None
+    broken: bool | None
 
     @classmethod
     def of(cls, chosen: list[Channel], selection: Selection) -> "InHand":
         """The curves are those of the selected keys; without selected keys those *chosen*."""
-        return cls(chosen, list(selection.channels) or chosen, *common_rules(selection))
+        return cls(chosen, list(selection.channels) or chosen, *shared_by(selection))
 
 
-def common_rules(selection: Selection) -> tuple[TangentRule | None, TangentRule | None]:
-    """(rule in, rule out) that all selected keys share; None where they differ, or are too many to look at."""
+def shared_by(selection: Selection) -> tuple[TangentRule | None, TangentRule | None, bool | None]:
+    """(rule in, rule out, broken) of all selected keys; None where they differ, or are too many to look at."""
     if not selection or selection.count > MOST_KEYS_LOOKED_AT:
-        return None, None
+        return None, None, None
     runs = [channel.keys_of(selection.ids(channel)) for channel in selection.channels]
-    return _only_rule(runs, "rule_in"), _only_rule(runs, "rule_out")
+    rule_in, rule_out, broken = (_only(runs, field) for field in ("rule_in", "rule_out", "broken"))
+    return (
+        None if rule_in is None else TangentRule(rule_in),
+        None if rule_out is None else TangentRule(rule_out),
+        None if broken is None else bool(broken),
+    )
 
 
-def _only_rule(runs: Sequence[Run], field: str) -> TangentRule | None:
-    rules = {int(rule) for run in runs for rule in run[field]}
-    return TangentRule(rules.pop()) if len(rules) == 1 else None
+def _only(runs: Sequence[Run], field: str) -> int | None:
+    """The one number that this column of all *runs* holds."""
+    numbers = {int(number) for run in runs for number in run[field]}
+    return numbers.pop() if len(numbers) == 1 else None

@@ -167,9 +167,7 @@ def give_mnemonics(menu: QMenu) -> None:
 
 def make_toolbar(window: "MainWindow") -> QToolBar:
     """The toolbar, as TOOLBAR groups it."""
-    bar = QToolBar("Toolbar", window)
-    bar.setObjectName("toolbar")
-    bar.setIconSize(QSize(ICON_SIZE))
+    bar = Toolbar(window)
     for group in TOOLBAR:
         if bar.actions():
             bar.addSeparator()
@@ -181,7 +179,22 @@ def make_toolbar(window: "MainWindow") -> QToolBar:
                 button = bar.widgetForAction(window.actions_by_id[name])
                 button.setAccessibleName(window.actions_by_id[name].row.plain_label)
     window.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
+    bar.dress()
     return bar
+
+
+class Toolbar(QToolBar):
+    """A toolbar in which what is on can be seen from afar, in every theme."""
+
+    def __init__(self, window: "MainWindow") -> None:
+        super().__init__("Toolbar", window)
+        self.setObjectName("toolbar")
+        self.setIconSize(QSize(ICON_SIZE))
+        Theme.current().theme_changed.connect(self.dress)
+
+    def dress(self) -> None:
+        """Take the colours of the theme."""
+        self.setStyleSheet(Theme.current().button_style())
 
 
 class MenuButton(QToolButton):

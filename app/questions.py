@@ -6,7 +6,7 @@ from enum import Enum, auto
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QIcon
 from PySide6.QtWidgets import (
     QColorDialog,
     QDialog,
@@ -56,7 +56,9 @@ class Questions:
         """The format cannot hold all of the clip: NATIVE, ANYWAY or CANCEL."""
         listed = "\n".join(f"•  {loss}" for loss in losses)
         box = self._box(
-            Icon.Warning, f"{name} cannot hold all of this clip", f"As {format_label} these would be lost:\n\n{listed}"
+            Icon.Warning,
+            f"{name} cannot hold all of this clip",
+            f"Saved as “{format_label}” it would lose:\n\n{listed}",
         )
         native = box.addButton("Save as &Hermite Clip…", Role.AcceptRole)
         anyway = box.addButton("Save &Anyway", Role.DestructiveRole)
@@ -147,9 +149,11 @@ class Questions:
     def _box(self, icon: QMessageBox.Icon, heading: str, text: str) -> QMessageBox:
         box = QMessageBox(icon, "Hermite", heading, Standard.NoButton, self._parent)
         box.setInformativeText(text)
-        for label in box.findChildren(QLabel):  # setTextFormat reaches the heading only
-            label.setTextFormat(Qt.TextFormat.PlainText)
         box.setTextFormat(Qt.TextFormat.PlainText)
+        for label in box.findChildren(QLabel):
+            label.setTextFormat(Qt.TextFormat.PlainText)  # the box's own setting reaches the heading only
+            if label.objectName() == "qt_msgbox_label":
+                label.setStyleSheet("font-weight: bold")
         return box
 
     def _chosen(
@@ -164,6 +168,8 @@ class Questions:
 
 def _run(dialog: QDialog) -> int:
     """Wait for the answer; the dialog can still be asked until control returns to Qt, then it is gone."""
+    for button in dialog.findChildren(QPushButton):
+        button.setIcon(QIcon())  # Fusion's own icons ignore dark themes
     answer = dialog.exec()
     dialog.deleteLater()
     return answer

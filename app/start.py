@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QSocketNotifier, QTimer
 from PySide6.QtWidgets import QApplication, QWidget
@@ -13,6 +14,9 @@ from app.main_window import MainWindow, make_application
 from app.settings import Settings
 from widgets.guard import guarded
 from widgets.theme import Theme
+
+if TYPE_CHECKING:
+    from app.crash_reports import CrashReports
 
 type FirstPicture = Callable[[MainWindow], None]
 
@@ -36,6 +40,8 @@ def start(path: str | None, skel: str | None, first_picture: FirstPicture | None
         QTimer.singleShot(0, window, partial(_fill, window, reports, path, skel, first_picture))
         code = app.exec()
         closer.end()
+        if window.ready:
+            window.cancel_gesture()
         window.hide()  # ended without being closed; what is visible must not be torn down with Python half gone
         return code
     finally:
@@ -43,10 +49,9 @@ def start(path: str | None, skel: str | None, first_picture: FirstPicture | None
 
 
 def _fill(
-    window: MainWindow, reports: QObject, path: str | None, skel: str | None, first_picture: FirstPicture | None
+    window: MainWindow, reports: "CrashReports", path: str | None, skel: str | None, first_picture: FirstPicture | None
 ) -> None:
     from app.clip_file import open_clip
-    from app.crash_reports import CrashReports
     from model.formats import FormatError
 
     opened, problem = None, ""
@@ -54,9 +59,12 @@ def _fill(
         opened = open_clip(path or str(FIRST_SAMPLE), skel)
     except FormatError as error:
         problem = str(error)
-    window.assemble(opened=opened)
-    if isinstance(reports, CrashReports):
-        reports.reported.connect(window.crash_bar.show_report)
+    try:
+        window.assemble(opened=opened)
+    except Exception:
+        QApplication.exit(1)  # there is nothing to go on with; the report says what was wrong
+        raise
+    reports.reported.connect(window.crash_bar.show_report)
     if problem and first_picture is not None:
         print(problem, file=sys.stderr)
         QApplication.exit(2)

@@ -53,6 +53,8 @@ class Watcher(QObject):
 
     def refresh(self) -> None:
         """Look at everything again."""
+        if not isValid(self._window):  # the history still tells that it is empty while Qt destroys it with the window
+            return
         self._window.refresh_actions()
         self._window.status.show_selection(selection_summary(self._window))
 
@@ -67,14 +69,16 @@ class Watcher(QObject):
 
     def _gesture_changed(self) -> None:
         in_gesture = self._window.document.gesture is not None
-        if in_gesture != self._in_gesture:  # previews change nothing that an action asks about
+        if in_gesture != self._in_gesture and isValid(
+            self._window
+        ):  # previews change nothing that an action asks about
             self._in_gesture = in_gesture
             self._window.actions_by_id["edit.undo"].refresh({})
 
     def _history_moved(self, *_place: object) -> None:
-        if isValid(self._window):  # the stack still tells that it is empty while Qt destroys it with the window
+        self.refresh()
+        if isValid(self._window):
             self._window.refresh_title()
-            self.refresh()
 
     def _frame(self, channel: Channel) -> None:
         """Show all of one channel."""

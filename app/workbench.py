@@ -112,11 +112,9 @@ def _make_parts(window: "MainWindow") -> None:
         "history": _dock(window, "history", "Undo History", history, right),
     }
     window.docks["history"].hide()
-    window.resizeDocks(
-        [window.docks["channels"], window.docks["inspector"]],
-        [CHANNELS_WIDTH, INSPECTOR_WIDTH],
-        Qt.Orientation.Horizontal,
-    )
+    panels = [window.docks["channels"], window.docks["inspector"]]
+    widths = [max(CHANNELS_WIDTH, window.tree.minimumSizeHint().width()), INSPECTOR_WIDTH]
+    window.resizeDocks(panels, widths, Qt.Orientation.Horizontal)
     bar = window.statusBar()
     bar.setSizeGripEnabled(False)
     window.setMinimumSize(window.transport.minimumSizeHint().width() + 12, LEAST_HEIGHT)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from app.actions.row import SELECTED_KEYS, Action, Need
 from model import edits
+from model.document import added_keys
 from model.labels import channels_text, label_of
 from widgets.tools import TOOLS
 
@@ -45,7 +46,7 @@ def _has_option(name: str, window: "MainWindow") -> bool:
 def _key_at_playhead(window: "MainWindow") -> None:
     channels, time = editable_channels(window), window.session.playhead
     label = f"Key {channels_text(channels)} at {time:.6g} s"
-    if window.document.do(label, lambda clip: edits.key_all(clip, channels, time)) is None:
+    if window.document.do(label, lambda clip: edits.key_all(clip, channels, time), selection=added_keys) is None:
         window.say(f"There are keys at {time:.6g} s already")
 
 

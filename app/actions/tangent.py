@@ -83,6 +83,7 @@ TANGENT_ACTIONS = (
         icon="break",
         tip="Let the tangents of the selected keys turn apart",
         needs=(SELECTED_KEYS,),
+        checked_when=lambda w: w.in_hand.broken is True,
         begins_group=True,
     ),
     Action(
@@ -94,6 +95,7 @@ TANGENT_ACTIONS = (
         icon="unify",
         tip="Let the tangents of the selected keys turn together",
         needs=(SELECTED_KEYS,),
+        checked_when=lambda w: w.in_hand.broken is False,
     ),
     Action(
         id="tangent.menu",
