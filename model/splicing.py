@@ -18,6 +18,8 @@ ID_GAP = 1 << 24
 AT_A_TIME = 8192
 # Up to so many keys are rebuilt in Python numbers, which is quicker than numpy on short columns.
 FEW = 6
+# From so many ids on, a flag for every id that ever was is quicker than sets.
+MANY = 1000
 
 _IN_RULES = np.array([rule in TANGENT_RULES and rule != TangentRule.STEP for rule in range(256)])
 _OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
@@ -129,18 +131,32 @@ def ids_for(rows: Rows, before: Run, after: Run, next_id: int) -> tuple[NDArray[
     fresh = ids == 0
     count = int(fresh.sum())
     if count < len(ids):
-        given = ids[~fresh] if count else ids
-        if len(np.unique(given)) < len(given):
-            raise ValueError("id: two keys of the run have the same one")
-        known = given[given < len(rows.row_of)]
-        strangers = np.setdiff1d(known[rows.row_of[known] >= 0], before["id"])
-        if len(strangers):
-            raise ValueError(f"id {strangers[0]} belongs to a key outside the run")
-        if not count:
-            return None, next_id
+        _check_ids(rows, ids[~fresh] if count else ids, before["id"])
+    if not count:
+        return None, next_id
     filled = ids.copy()
     filled[fresh] = np.arange(next_id, next_id + count)
     return filled, next_id + count
+
+
+def _check_ids(rows: Rows, ids: NDArray[np.int64], gone: NDArray[np.int64]) -> None:
+    """Raise ValueError unless *ids* differ from each other and from those of all keys but the ones that go."""
+    if len(ids) + len(gone) <= MANY:
+        twice, leaving = len(set(ids.tolist())) < len(ids), set(gone.tolist())
+        known = [key_id for key_id in ids.tolist() if key_id < len(rows.row_of) and rows.row_of[key_id] >= 0]
+        strangers = [key_id for key_id in known if key_id not in leaving]
+    else:
+        # A flag for each id: quicker than sorting them.
+        flags = np.zeros(max(int(ids.max()) + 1, len(rows.row_of)), np.bool_)
+        flags[ids] = True
+        twice = int(np.count_nonzero(flags)) < len(ids)
+        flags[gone] = False
+        flags[: len(rows.row_of)] &= rows.row_of >= 0
+        strangers = ids[flags[ids]].tolist()
+    if twice:
+        raise ValueError("id: two keys of the run have the same one")
+    if strangers:
+        raise ValueError(f"id {strangers[0]} belongs to a key outside the run")
 
 
 # --- what follows from a run

@@ -199,6 +199,19 @@ def test_ids_that_cannot_be_are_refused() -> None:
     refused(channel, none, make_run([9.0], ids=10**12), "key 0: id 1000000000000")
 
 
+def test_ids_that_cannot_be_are_refused_among_many_keys_too() -> None:
+    channel = Channel("x", random_run(1, 1500))
+    run = channel.run()
+    after = run[:1200].copy()
+    after["id"][7] = after["id"][8]
+    refused(channel, run[:1200], after, "two keys of the run have the same")
+    after["id"][7] = run["id"][1300]
+    refused(channel, run[:1200], after, "belongs to a key outside the run")
+    after["id"] = run["id"][:1200][::-1]
+    assert channel.splice(run[:1200], after).run["id"].tolist() == after["id"].tolist()
+    channel.check()
+
+
 def test_minus_zero_is_kept_bit_for_bit() -> None:
     channel = Channel("x", make_run([-0.0, 1.0], [-0.0, -0.0], -0.0, -0.0, TangentRule.FIXED, TangentRule.FIXED))
     run = channel.run()
