@@ -2,12 +2,23 @@
 
 from typing import Final
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QPalette, QWheelEvent
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QWheelEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QStyle,
+    QStyleOptionToolButton,
+    QToolButton,
+    QWidget,
+)
 
+from widgets.colors import mix
 from widgets.guard import guarded
-from widgets.theme import Theme
+from widgets.theme import ICON_SIZE, Theme
 
 WIDEST_LABEL: Final = "Slope out "  # so that the fields of all sections begin at one line
 
@@ -49,6 +60,34 @@ class Heading(QWidget):
         layout.setContentsMargins(0, 0, 0, 2)
         layout.addWidget(name)
         layout.addWidget(self.detail, 1)
+
+
+class PanelButton(QToolButton):
+    """A tool button that can be seen from afar to be switched on, and to have the focus."""
+
+    def __init__(self, theme: Theme, icon: str, name: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._theme = theme
+        self.setIcon(theme.icon(icon))
+        self.setIconSize(ICON_SIZE)
+        self.setAccessibleName(name)
+        self.setToolTip(name)
+
+    @guarded()
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if not (self.isChecked() or self.hasFocus()):
+            super().paintEvent(event)
+            return
+        option = QStyleOptionToolButton()
+        self.initStyleOption(option)
+        accent = self._theme.accent if self.isEnabled() else self._theme.text_dim
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(accent)
+            if self.isChecked():
+                painter.setBrush(mix(self.palette().color(QPalette.ColorRole.Window), accent, 0.3))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4)
+            self.style().drawControl(QStyle.ControlElement.CE_ToolButtonLabel, option, painter, self)
 
 
 class QuietCombo(QComboBox):

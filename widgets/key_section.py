@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from model import edits
@@ -13,7 +13,7 @@ from model.document import Document
 from model.keyframe import TangentRule
 from model.labels import keys_text
 from model.tangents import TANGENT_RULES
-from widgets.form import DimLabel, Heading, QuietCombo, form_grid
+from widgets.form import DimLabel, Heading, PanelButton, QuietCombo, form_grid
 from widgets.key_targets import KeyTarget, SelectedKeys
 from widgets.numbers import frame_text, suffix_of
 from widgets.scrub_label import ScrubLabel
@@ -60,8 +60,6 @@ class KeySection(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.heading)
         layout.addWidget(body)
-        theme.theme_changed.connect(self._recolor)
-        self._recolor()
         self.refresh()
 
     def refresh(self) -> None:
@@ -80,10 +78,6 @@ class KeySection(QWidget):
         for half, state in ((self.unified, False), (self.broken, True)):
             half.setEnabled(some)
             half.setChecked(broken is not None and bool(broken) == state)
-
-    def _recolor(self) -> None:
-        for half in (self.unified, self.broken):
-            half.setStyleSheet(self._theme.button_style())
 
     def _unit_text(self, name: str) -> str:
         if not self._document.session.selection:
@@ -126,12 +120,9 @@ class KeySection(QWidget):
         self.rules[side] = combo
 
     def _half(self, icon: str, text: str, tip: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setIcon(self._theme.icon(icon))
-        button.setIconSize(QSize(18, 18))
+        button = PanelButton(self._theme, icon, text, self)
         button.setText(text)
         button.setToolTip(tip)
-        button.setAccessibleName(text)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         button.setCheckable(True)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

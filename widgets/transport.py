@@ -4,16 +4,17 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Final, NamedTuple
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from model.document import Document
+from widgets.form import PanelButton
 from widgets.number_targets import PlayheadTarget, SettingTarget
 from widgets.playback import Playback
 from widgets.scrub_label import ScrubLabel
 from widgets.soon import Soon
-from widgets.theme import ICON_SIZE, Theme
+from widgets.theme import Theme
 from widgets.value_field import Target, ValueField
 
 FIELD_WIDTH: Final = 72
@@ -83,7 +84,6 @@ class Transport(QWidget):
         self._add_fields()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self._listen()
-        self._recolor()
         self._show_options("playing")
         self._show_options("loop")
 
@@ -139,13 +139,9 @@ class Transport(QWidget):
         loop.clicked.connect(lambda _checked=False: self.toggle_loop())
 
     def _add_button(self, name: str, icon: str, label: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setIcon(self._theme.icon(icon))
-        button.setIconSize(QSize(ICON_SIZE))
+        button = PanelButton(self._theme, icon, label, self)
         button.setAutoRaise(True)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        button.setAccessibleName(label)
-        button.setToolTip(label)
         self.buttons[name] = button
         self._layout.addWidget(button)
         return button
@@ -189,11 +185,6 @@ class Transport(QWidget):
         session.option_changed.connect(self._show_options)
         document.setting_changed.connect(self._refresh.ask)
         document.clip_replaced.connect(self._refresh.ask)
-        self._theme.theme_changed.connect(self._recolor)
-
-    def _recolor(self) -> None:
-        for button in self.buttons.values():
-            button.setStyleSheet(self._theme.button_style())
 
     def _show_numbers(self) -> None:
         for field in self.fields.values():

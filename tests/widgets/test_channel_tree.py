@@ -1,45 +1,36 @@
-"""Channels are found, chosen, shown, locked, soloed, renamed and coloured by mouse and keyboard."""
+"""Channels are found, chosen, renamed, coloured and framed by mouse and keyboard."""
 
 import time
 
 import pytest
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QContextMenuEvent, QKeyEvent
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtTest import QAbstractItemModelTester, QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
 from model.channel import Channel
 from model.clip import Clip
-from model.document import Document, Membership, Splice
+from model.document import Membership
 from model.keyframe import make_run
+from tests.widgets.tree_hand import center, channel, click, group_center, names, six_channels, tree_of
 from widgets.channel_cells import ChannelCells
-from widgets.channel_rows import ChannelRows, Column
+from widgets.channel_rows import ChannelRows
 from widgets.channel_tree import ChannelTree
 from widgets.channel_view import ChannelView
 from widgets.guard import unguarded
-from widgets.theme import Theme
 
 Key = Qt.Key
 Left = Qt.MouseButton.LeftButton
-NAMES = ("root.tx", "root.ty", "root.tz", "blink", "head.rx", "head.ry")
 
 
 @pytest.fixture
 def document():
-    channels = [Channel(name, make_run([0, 1], [rank, rank + 1])) for rank, name in enumerate(NAMES)]
-    channels[4].unit = "angle"
-    return Document(Clip(channels, end=1))
+    return six_channels()
 
 
 @pytest.fixture
 def tree(qtbot, document):
-    widget = ChannelTree(document, Theme("dark"))
-    qtbot.addWidget(widget)
-    widget.resize(300, 400)
-    widget.show()
-    widget.activateWindow()
-    qtbot.waitUntil(widget.isActiveWindow)
-    return widget
+    return tree_of(document, qtbot)
 
 
 @pytest.fixture
@@ -47,22 +38,6 @@ def edits(document):
     seen = []
     document.committed.connect(seen.append)
     return seen
-
-
-def channel(tree, name):
-    return tree.document.clip.channel(name)
-
-
-def center(tree, name, column=Column.NAME):
-    return tree.view.visualRect(tree.view.rows.index_of(channel(tree, name), column)).center()
-
-
-def group_center(tree, row, column=Column.NAME):
-    return tree.view.visualRect(tree.view.rows.index(row, column)).center()
-
-
-def click(tree, where, modifiers=Qt.KeyboardModifier.NoModifier):
-    QTest.mouseClick(tree.view.viewport(), Left, modifiers, where)
 
 
 def shown_texts(tree):
@@ -73,10 +48,6 @@ def shown_texts(tree):
         texts.append(rows.data(index))
         texts += ["  " + rows.data(rows.index(child, 0, index)) for child in range(rows.rowCount(index))]
     return texts
-
-
-def names(channels):
-    return [channel.name for channel in channels]
 
 
 def test_channels_stand_in_the_groups_that_their_names_tell(tree):
@@ -151,51 +122,6 @@ def test_what_is_folded_while_filtering_is_not_folded_afterwards(tree):
     assert tree.view.isExpanded(tree.view.rows.index(0, 0))
 
 
-def test_the_eye_hides_and_shows_a_channel_and_chooses_nothing(tree, document, edits):
-    click(tree, center(tree, "root.ty", Column.SHOW))
-    assert not document.session.shown(channel(tree, "root.ty"))
-    assert document.session.active is None
-    click(tree, center(tree, "root.ty", Column.SHOW))
-    assert document.session.shown(channel(tree, "root.ty"))
-    assert not edits
-
-
-def test_the_eye_of_a_group_acts_on_all_its_channels(tree, document):
-    click(tree, center(tree, "root.ty", Column.SHOW))
-    click(tree, group_center(tree, 0, Column.SHOW))
-    assert not document.session.hidden
-    click(tree, group_center(tree, 0, Column.SHOW))
-    assert {c.name for c in document.session.hidden} == {"root.tx", "root.ty", "root.tz"}
-
-
-def test_dragging_over_eyes_gives_all_the_state_of_the_first(tree, document):
-    click(tree, center(tree, "root.ty", Column.SHOW))
-    viewport = tree.view.viewport()
-    QTest.mousePress(viewport, Left, pos=center(tree, "root.tx", Column.SHOW))
-    for name in ("root.ty", "root.tz", "blink"):
-        QTest.mouseMove(viewport, center(tree, name, Column.SHOW))
-    QTest.mouseRelease(viewport, Left, pos=center(tree, "blink", Column.SHOW))
-    assert {c.name for c in document.session.hidden} == {"root.tx", "root.ty", "root.tz", "blink"}
-
-
-def test_dragging_over_locks_is_one_undo_step(tree, document, edits):
-    viewport = tree.view.viewport()
-    QTest.mousePress(viewport, Left, pos=center(tree, "root.tx", Column.LOCK))
-    QTest.mouseMove(viewport, center(tree, "root.ty", Column.LOCK))
-    assert channel(tree, "root.ty").locked
-    QTest.mouseRelease(viewport, Left, pos=center(tree, "root.ty", Column.LOCK))
-    assert [edit.label for edit in edits] == ["Lock 2 channels"]
-    document.apply(edits[0].inverse())
-    assert not any(c.locked for c in document.clip.channels)
-
-
-def test_solo_shows_only_the_marked_channels(tree, document):
-    click(tree, center(tree, "blink", Column.SOLO))
-    assert names(document.session.shown_channels(document.clip)) == ["blink"]
-    click(tree, center(tree, "blink", Column.SOLO))
-    assert len(document.session.shown_channels(document.clip)) == 6
-
-
 def test_hide_only_these_and_reveal_act_on_the_chosen(tree, document):
     click(tree, group_center(tree, 2))
     tree.hide_chosen()
@@ -241,102 +167,12 @@ def test_a_name_that_cannot_be_is_refused_in_words(tree, edits, text):
     assert not edits
 
 
-def test_arrow_keys_reach_the_icons_and_space_turns_them(tree, document):
-    click(tree, center(tree, "root.tx"))
-    for key in (Key.Key_Right, Key.Key_Right, Key.Key_Space):
-        QTest.keyClick(tree.view, key)
-    assert channel(tree, "root.tx").locked
-    for key in (Key.Key_Left, Key.Key_Space, Key.Key_Left, Key.Key_Down):
-        QTest.keyClick(tree.view, key)
-    assert channel(tree, "root.tx") in document.session.hidden
-    assert document.session.active is channel(tree, "root.ty")
-
-
-@pytest.mark.parametrize(
-    ("key", "column", "own"),
-    [
-        (Key.Key_Up, Column.NAME, True),
-        (Key.Key_Home, Column.NAME, True),
-        (Key.Key_Space, Column.NAME, False),
-        (Key.Key_Space, Column.SHOW, True),
-        (Key.Key_H, Column.NAME, False),
-    ],
-)
-def test_the_tree_keeps_the_keys_it_needs_from_the_shortcuts_of_the_window(tree, key, column, own):
-    tree.view.setCurrentIndex(tree.view.rows.index_of(channel(tree, "root.tx"), column))
-    event = QKeyEvent(QEvent.Type.ShortcutOverride, key, Qt.KeyboardModifier.NoModifier)
-    event.ignore()
-    QApplication.sendEvent(tree.view, event)
-    assert event.isAccepted() == own
-
-
 def test_a_double_click_and_enter_ask_to_frame_the_channel(tree):
     spy = QSignalSpy(tree.frame_requested)
     QTest.mouseDClick(tree.view.viewport(), Left, pos=center(tree, "root.ty"))
     click(tree, center(tree, "head.rx"))
     QTest.keyClick(tree.view, Key.Key_Return)
     assert [spy.at(i)[0].name for i in range(spy.count())] == ["root.ty", "head.rx"]
-
-
-def test_values_at_the_playhead_are_shown_in_the_channels_unit(tree, document):
-    rows = tree.view.rows
-    document.session.playhead = 1.0
-    assert rows.data(rows.index_of(channel(tree, "root.ty"), Column.VALUE)) == "2.000"
-    assert rows.data(rows.index_of(channel(tree, "head.rx"), Column.VALUE)) == "286.48°"
-
-
-def value_pixels(tree, name):
-    rect = tree.view.visualRect(tree.view.rows.index_of(channel(tree, name), Column.VALUE))
-    image = tree.view.viewport().grab(rect).toImage()
-    return bytes(image.constBits())
-
-
-def test_only_values_that_read_differently_are_painted_again_and_they_are_right(tree, document, qtbot, monkeypatch):
-    flat = document.clip.channel("blink")
-    document.do("Flat", lambda clip: [_flattened(flat)])
-    qtbot.wait(50)
-    document.session.playhead = 0.4
-    qtbot.wait(50)
-    painted = []
-    paint = tree.view.cells.paint_values
-    monkeypatch.setattr(tree.view.cells, "paint_values", lambda *a: (painted.append(len(a[3])), paint(*a)))
-    document.session.playhead = 0.5
-    qtbot.waitUntil(lambda: bool(painted))
-    assert painted == [5]
-    half = value_pixels(tree, "root.tx")
-    document.session.playhead = 0.0
-    qtbot.wait(50)
-    assert value_pixels(tree, "root.tx") != half
-    document.session.playhead = 0.5
-    qtbot.wait(50)
-    assert value_pixels(tree, "root.tx") == half
-
-
-def test_a_value_painted_with_all_in_between_is_painted_again(tree, document, qtbot, monkeypatch):
-    document.session.playhead = 0.5
-    qtbot.wait(50)
-    painted = []
-    monkeypatch.setattr(tree.view.cells, "paint_values", lambda *a: painted.append(len(a[3])))
-    document.session.playhead = 0.7
-    tree.view.viewport().repaint()
-    document.session.playhead = 0.5
-    qtbot.waitUntil(lambda: painted == [6])
-
-
-def _flattened(channel):
-    run = channel.run()
-    after = run.copy()
-    after["value"] = 7.0
-    return Splice(channel, run, after)
-
-
-def test_a_value_painted_alone_looks_like_one_painted_with_all(tree, document):
-    click(tree, center(tree, "root.ty"))
-    tree.view.update_values()
-    rect = tree.view.visualRect(tree.view.rows.index_of(channel(tree, "root.ty"), Column.VALUE))
-    alone = tree.view.viewport().grab(rect).toImage()
-    whole = tree.view.viewport().grab().toImage().copy(rect)
-    assert alone == whole
 
 
 def test_colours_come_from_the_menu_and_can_be_undone(tree, document, edits, monkeypatch):
@@ -384,17 +220,6 @@ def test_thousands_of_channels_are_listed_and_filtered_at_once(tree, document):
     tree.filter.setText("99 x")
     tree.filter.clear()
     assert time.perf_counter() - start < 0.5
-
-
-def test_icons_are_words_for_a_screen_reader(tree, document):
-    rows = tree.view.rows
-    index = rows.index_of(channel(tree, "root.tx"), Column.SHOW)
-    assert rows.data(index, Qt.ItemDataRole.AccessibleTextRole) == "shown"
-    click(tree, center(tree, "root.tx", Column.SHOW))
-    assert rows.data(index, Qt.ItemDataRole.AccessibleTextRole) == "hidden"
-    assert rows.data(rows.index(0, Column.SHOW), Qt.ItemDataRole.AccessibleTextRole) == "some shown"
-    assert tree.view.accessibleName() == "Channels"
-    assert tree.filter.accessibleName()
 
 
 def test_every_override_is_guarded():
