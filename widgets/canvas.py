@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 from PySide6.QtCore import QRect, QRectF, Qt, QTimer
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
+from shiboken6 import isValid
 
 from model.channel import Channel
 from model.clip import Clip
@@ -65,7 +66,11 @@ class Canvas(QGraphicsItem):
         session.active_changed.connect(self.restyle)
         session.visibility_changed.connect(self.restyle)
         session.playhead_changed.connect(self._on_playhead)
-        self._theme.theme_changed.connect(self.restyle)
+        self._theme.theme_changed.connect(self._on_theme)
+
+    def _on_theme(self) -> None:
+        if isValid(self._view):  # the theme outlives every window, and may change before the garbage is collected
+            self.restyle()
 
     # --- Qt
 
