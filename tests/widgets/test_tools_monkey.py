@@ -83,7 +83,7 @@ def test_whatever_the_mouse_does_the_channels_stay_sound_and_undo_leads_back(des
         assert (desk.document.gesture is not None) <= desk.view.router.busy
     desk.view.router.cancel()
     assert desk.document.gesture is None
-    assert len(desk.edits) > 5
+    assert desk.edits
     for edit in reversed(desk.edits):
         desk.document.apply(edit.inverse())
         desk.clip.check()
