@@ -24,7 +24,7 @@ MENUS = {
     "Channel": "&Channel",
     "Curve": "C&urve",
     "Play": "&Play",
-    "Help": "&Help",
+    "Help": "He&lp",  # Alt+H reveals channels
 }
 # Paths of menus that have a button in the toolbar: its icon while nothing is checked, its tip.
 TOOLBAR_MENUS = {

@@ -92,6 +92,8 @@ def test_no_two_actions_share_keys_an_id_or_a_place_in_a_menu(qapp: QApplication
     keys = Counter(sequence.toString() for row in ACTIONS for sequence in key_sequences(row.shortcuts))
     ids = Counter(row.id for row in ACTIONS)
     places = Counter((row.menu, row.plain_label) for row in ACTIONS)
+    for title in MENUS.values():
+        keys[f"Alt+{title[title.index('&') + 1].upper()}"] += 1
     for counter in (keys, ids, places):
         assert not [name for name, times in counter.items() if times > 1]
 
