@@ -1,6 +1,5 @@
 """ChannelSection: name, unit and extrapolations of the active channel, and what can be said about it in numbers."""
 
-from functools import partial
 from typing import Final
 
 from PySide6.QtCore import Qt, Signal
@@ -108,7 +107,7 @@ class ChannelSection(QWidget):
         self.unit.setToolTip("What the values are measured in; angles are stored in radians and shown in degrees")
         for unit, label in UNITS:
             self.unit.addItem(label, unit)
-        self.unit.activated.connect(lambda index: self._set_unit(self.unit.itemData(index)))
+        self.unit.activated.connect(self._unit_chosen)
         self._unit_line.setAccessibleName("Unit")
         self._unit_line.editingFinished.connect(self._unit_typed)
         self._add_row("Unit", self.unit)
@@ -119,7 +118,7 @@ class ChannelSection(QWidget):
             combo.addItem(self._theme.icon(f"{side}-{mode.word.replace('_', '-')}"), row.label, int(mode))
             combo.setItemData(combo.count() - 1, row.tip, Qt.ItemDataRole.ToolTipRole)
         combo.setToolTip(f"How the channel goes on {place}")
-        combo.activated.connect(partial(self._set_mode, side, combo))
+        combo.activated.connect(self._set_pre if side == "pre" else self._set_post)
         self.modes[side] = combo
         self._add_row(label, combo)
 
@@ -140,6 +139,9 @@ class ChannelSection(QWidget):
         if index < 0:
             self.unit.setEditText(unit)
 
+    def _unit_chosen(self, index: int) -> None:
+        self._set_unit(self.unit.itemData(index))
+
     def _unit_typed(self) -> None:
         line, channel = self._unit_line, self._document.session.active
         if channel is None or not line.isModified():
@@ -157,8 +159,14 @@ class ChannelSection(QWidget):
         self._measured = None
         self.refresh()
 
-    def _set_mode(self, side: str, combo: QuietCombo, index: int) -> None:
-        channel, mode = self._document.session.active, Extrapolation(combo.itemData(index))
+    def _set_pre(self, index: int) -> None:
+        self._set_mode("pre", Extrapolation(self.modes["pre"].itemData(index)))
+
+    def _set_post(self, index: int) -> None:
+        self._set_mode("post", Extrapolation(self.modes["post"].itemData(index)))
+
+    def _set_mode(self, side: str, mode: Extrapolation) -> None:
+        channel = self._document.session.active
         if channel is None:
             return
         place = "before" if side == "pre" else "after"

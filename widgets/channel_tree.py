@@ -68,8 +68,8 @@ class ChannelTree(QWidget):
         view.rows.rename = self._rename
         view.framed.connect(self.frame_requested)
         view.refused.connect(self.status)
-        view.collapsed.connect(lambda index: self._remember_fold(index, folded=True))
-        view.expanded.connect(lambda index: self._remember_fold(index, folded=False))
+        view.collapsed.connect(self._remember_fold)
+        view.expanded.connect(self._remember_fold)
         view.selectionModel().currentChanged.connect(self._current_changed)
 
     def _listen(self) -> None:
@@ -159,12 +159,12 @@ class ChannelTree(QWidget):
     def _repaint(self) -> None:
         self.view.viewport().update()
 
-    def _remember_fold(self, index: QModelIndex, *, folded: bool) -> None:
+    def _remember_fold(self, index: QModelIndex) -> None:
         if self._follows or self.filter.text():
             return
         name = self.view.rows.groups[index.row()].name
         session = self.document.session
-        session.folded = session.folded | {name} if folded else session.folded - {name}
+        session.folded = session.folded - {name} if self.view.isExpanded(index) else session.folded | {name}
 
     def _current_changed(self, index: QModelIndex, _previous: QModelIndex) -> None:
         channel = self.view.rows.channel_of(index)

@@ -1,6 +1,5 @@
 """KeySection: the numbers and rules of the selected keys."""
 
-from functools import partial
 from typing import Final
 
 import numpy as np
@@ -113,7 +112,7 @@ class KeySection(QWidget):
                 combo.addItem(self._theme.icon(rule.word), table_row.label, int(rule))
                 combo.setItemData(combo.count() - 1, table_row.tip, Qt.ItemDataRole.ToolTipRole)
         combo.setToolTip(f"Who sets the slope {'before' if side == 'in' else 'after'} the key")
-        combo.activated.connect(partial(self._set_rule, side, combo))
+        combo.activated.connect(self._set_rule_in if side == "in" else self._set_rule_out)
         words = QLabel(label, self)
         words.setBuddy(combo)
         self._add_row(words, combo)
@@ -140,8 +139,14 @@ class KeySection(QWidget):
 
     # --- acting
 
-    def _set_rule(self, side: str, combo: QuietCombo, index: int) -> None:
-        rule, selection = TangentRule(combo.itemData(index)), self._document.session.selection
+    def _set_rule_in(self, index: int) -> None:
+        self._set_rule("in", TangentRule(self.rules["in"].itemData(index)))
+
+    def _set_rule_out(self, index: int) -> None:
+        self._set_rule("out", TangentRule(self.rules["out"].itemData(index)))
+
+    def _set_rule(self, side: str, rule: TangentRule) -> None:
+        selection = self._document.session.selection
         label = self._document.label_of(f"Set {rule.word} {side} on", selection)
         self._document.do(label, lambda clip: edits.set_rule(clip, selection, rule, side))
         self.refresh()

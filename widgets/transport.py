@@ -131,12 +131,12 @@ class Transport(QWidget):
         for row in BUTTONS:
             if row.gap:
                 self._layout.addSpacing(8)
-            self._add_button(row.name, row.icon, row.label).clicked.connect(
-                lambda _checked=False, act=row.act: act(self.playback)
-            )
+            button = self._add_button(row.name, row.icon, row.label)
+            # The function holds the playback, not this widget: a slot that holds its widget keeps it alive for ever.
+            button.clicked.connect(lambda _checked=False, act=row.act, playback=self.playback: act(playback))
         loop = self._add_button("loop", "loop", "Loop: begin again at the end of the range")
         loop.setCheckable(True)
-        loop.clicked.connect(lambda _checked=False: self.toggle_loop())
+        loop.clicked.connect(self.toggle_loop)
 
     def _add_button(self, name: str, icon: str, label: str) -> QToolButton:
         button = PanelButton(self._theme, icon, label, self)

@@ -1,11 +1,21 @@
 """What the panels are put together from can be seen, read and scrolled past."""
 
+import gc
+import weakref
+
 import pytest
 from PySide6.QtCore import Qt
 
+from model.channel import Channel
+from model.clip import Clip
+from model.document import Document
+from model.keyframe import make_run
+from widgets.channel_tree import ChannelTree
 from widgets.form import DimLabel, PanelButton, QuietCombo
 from widgets.guard import unguarded
+from widgets.key_inspector import KeyInspector
 from widgets.theme import Theme
+from widgets.transport import Transport
 
 
 @pytest.fixture
@@ -58,6 +68,19 @@ def test_words_that_explain_follow_the_theme(qtbot):
     theme._set_name("light")
     theme.theme_changed.emit()
     assert label.palette().windowText().color() == Theme("light").text_dim
+
+
+@pytest.mark.parametrize("panel", [ChannelTree, KeyInspector, Transport])
+def test_a_panel_that_nobody_holds_is_gone(qtbot, panel):
+    document = Document(Clip([Channel("a.x", make_run([0, 1], [0, 1]))]))
+    widget = panel(document, Theme("dark"))
+    gone = weakref.ref(widget)
+    del widget
+    gc.collect()
+    assert gone() is None
+    document.session.playhead = 0.5
+    document.session.active = document.clip.channels[0]
+    document.replace(Clip())
 
 
 def test_every_override_is_guarded():
