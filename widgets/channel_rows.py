@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 
@@ -23,6 +23,10 @@ class Column(IntEnum):
     SHOW = 2
     LOCK = 3
     SOLO = 4
+
+
+SELECTABLE: Final = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
+EDITABLE: Final = SELECTABLE | Qt.ItemFlag.ItemIsEditable
 
 
 class Toggle(NamedTuple):
@@ -147,7 +151,8 @@ class ChannelRows(QAbstractItemModel):
 
     @guarded(QModelIndex())
     def index(self, row: int, column: int, parent: Index = QModelIndex()) -> QModelIndex:  # noqa: B008
-        if not self.hasIndex(row, column, parent):
+        # Asked for thousands of times by one layout: no call back into Qt that asks here again.
+        if not 0 <= column < len(Column) or not 0 <= row < self.rowCount(parent):
             return QModelIndex()
         return self.createIndex(row, column, parent.row() + 1 if parent.isValid() else 0)
 
@@ -173,8 +178,7 @@ class ChannelRows(QAbstractItemModel):
     def flags(self, index: Index) -> Qt.ItemFlag:
         if not index.isValid():
             return Qt.ItemFlag.NoItemFlags
-        flags = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
-        return flags | Qt.ItemFlag.ItemIsEditable if index.column() == Column.NAME else flags
+        return EDITABLE if index.column() == Column.NAME else SELECTABLE
 
     @guarded()
     def data(self, index: Index, role: int = Role.DisplayRole) -> Any:

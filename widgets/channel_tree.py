@@ -128,10 +128,13 @@ class ChannelTree(QWidget):
         self._follows = True
         view.cells.forget_colors()
         view.rows.show(words)
+        view.blockSignals(True)  # one for each of thousands of groups otherwise
         view.expandAll()
         for row, group in enumerate(view.rows.groups if not words and folded else ()):
             if group.name in folded:
                 view.collapse(view.rows.index(row, 0))
+        view.blockSignals(False)
+        view.forget_places()
         view.choose(chosen)
         self._follows = False
         self._show_active()

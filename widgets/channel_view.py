@@ -72,9 +72,9 @@ class ChannelView(QTreeView):
         self._places: list[tuple[Channel, QRect]] | None = None  # of the values on the screen, once worked out
         self._seen: dict[Channel, str] = {}
         self._lay_out_columns()
-        self.verticalScrollBar().valueChanged.connect(self._forget_places)
+        self.verticalScrollBar().valueChanged.connect(self.forget_places)
         for change in (self.expanded, self.collapsed, self.rows.modelReset, self.header().geometriesChanged):
-            change.connect(self._forget_places)
+            change.connect(self.forget_places)
         self.recolor()
 
     def _lay_out_columns(self) -> None:
@@ -132,7 +132,8 @@ class ChannelView(QTreeView):
             index = self.indexBelow(index)
         return places
 
-    def _forget_places(self, *_: object) -> None:
+    def forget_places(self, *_: object) -> None:
+        """Work out anew which values are on the screen and where."""
         self._places = None
         self._seen.clear()
 
@@ -243,7 +244,7 @@ class ChannelView(QTreeView):
 
     @guarded()
     def resizeEvent(self, event: QResizeEvent) -> None:
-        self._forget_places()
+        self.forget_places()
         super().resizeEvent(event)
 
     @guarded(False)

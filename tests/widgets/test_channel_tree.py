@@ -219,7 +219,7 @@ def test_thousands_of_channels_are_listed_and_filtered_at_once(tree, document):
     start = time.perf_counter()
     tree.filter.setText("99 x")
     tree.filter.clear()
-    assert time.perf_counter() - start < 0.5
+    assert time.perf_counter() - start < 1.5
 
 
 def test_every_override_is_guarded():
