@@ -3,6 +3,7 @@
 import os
 from collections.abc import Sequence
 from enum import Enum, auto
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
@@ -19,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from model.formats import FORMATS
+from model.formats import FORMATS, format_of_path
 
 Icon, Role, Standard = QMessageBox.Icon, QMessageBox.ButtonRole, QMessageBox.StandardButton
 
@@ -122,7 +123,7 @@ class Questions:
         dialog.setNameFilters(list(filters.values()))
         dialog.selectNameFilter(filters[format_name])
         dialog.setDefaultSuffix(FORMATS[format_name].extension)
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(_extension_of(chosen)))
+        dialog.filterSelected.connect(partial(_take_extension, dialog))
         dialog.selectFile(Path(suggested).name)
         if _run(dialog) != QDialog.DialogCode.Accepted:
             return "", ""
@@ -180,8 +181,13 @@ def format_filters() -> dict[str, str]:
     return {name: f"{row.label} (*{row.extension})" for name, row in FORMATS.items()}
 
 
-def _extension_of(name_filter: str) -> str:
-    return next((row.extension for row in FORMATS.values() if f"*{row.extension})" in name_filter), "")
+def _take_extension(dialog: QFileDialog, name_filter: str) -> None:
+    """Give the name in *dialog* the extension of the kind that was chosen, if it had that of another kind."""
+    extension = next(row.extension for row in FORMATS.values() if f"*{row.extension})" in name_filter)
+    dialog.setDefaultSuffix(extension)
+    path = Path(dialog.selectedFiles()[0])
+    if format_of_path(path) is not None:
+        dialog.selectFile(path.with_suffix(extension).name)
 
 
 def home_folder() -> str:
