@@ -106,7 +106,8 @@ class Session:
 
     def shown_channels(self, clip: Clip) -> list[Channel]:
         """The channels that the graph draws, in the clip's order."""
-        return [channel for channel in clip.channels if self.shown(channel)]
+        hidden, solo = self._hidden, self._solo
+        return [channel for channel in clip.channels if channel not in hidden and (not solo or channel in solo)]
 
     # --- how the tools behave
 

@@ -22,6 +22,7 @@ from widgets.tools.base import Button, Modifier, Point, Tool
 from widgets.tools.navigate import Navigation, Rest, edge_push, pinched, wheeled
 
 EDGE_INTERVAL = 16
+CALM_INTERVAL = 100
 
 # By number: the keys of many keyboards have numbers that Qt has no name for.
 MODIFIER_OF_KEY = {
@@ -54,6 +55,8 @@ class MouseRouter(QObject):
         self._edge.timeout.connect(self._scroll)
         self._later = QTimer(self, singleShot=True, interval=0)
         self._later.timeout.connect(self._refresh)
+        self._calm = QTimer(self, singleShot=True, interval=CALM_INTERVAL)
+        self._calm.timeout.connect(self._hover_again)
         self._shown = self.tool
         self._shown.showing(True)
         self._listen()
@@ -248,6 +251,13 @@ class MouseRouter(QObject):
     def _stale(self, *_: object) -> None:
         if not self._later.isActive():
             self._later.start()
+        self._calm.start()
+
+    @guarded()
+    def _hover_again(self) -> None:
+        """What lies under the pointer may be another thing by now; in a drag it is what was taken."""
+        if not self.busy:
+            self._again()
 
     @guarded()
     def _refresh(self) -> None:

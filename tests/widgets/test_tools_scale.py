@@ -145,6 +145,24 @@ def test_a_click_inside_the_box_still_chooses(desk: Desk) -> None:
     assert not desk.session.selection
 
 
+def test_the_ground_inside_the_box_stretches_about_the_middle_and_outside_it_boxes(desk: Desk) -> None:
+    begin(desk, "scale", 2, 3, 4)
+    start = desk.hand.spot_of(2.5, 1.7)
+    desk.hand.drag(start, beside(start, desk.view.x_from_time(0.25) - desk.view.x_from_time(0.0)), modifiers=SHIFT)
+    assert columns(desk)[0] == pytest.approx([0.0, 0.5, 2.0, 3.5, 4.0])
+    before = desk.keys()
+    desk.hand.drag(desk.hand.spot_of(-0.5, 14.0), desk.hand.spot_of(0.2, 9.0))
+    assert desk.keys() == before
+    assert desk.selected(desk.high) == [1]
+
+
+def test_a_click_on_a_curve_inside_the_box_makes_it_active(desk: Desk) -> None:
+    begin(desk, "scale", 1, 2, 3, 4, 5)
+    desk.session.active = desk.high
+    desk.hand.click(desk.hand.spot_of(1.5, desk.low.value(1.5)))
+    assert desk.session.active is desk.low
+
+
 @pytest.mark.parametrize("tool", ["scale", "retime"])
 def test_escape_gives_everything_back(desk: Desk, tool: str) -> None:
     before = desk.keys()

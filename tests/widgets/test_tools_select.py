@@ -2,7 +2,9 @@
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 
+from model import edits
 from model.channel import Channel
 from model.keyframe import make_run
 from model.selection import Selection
@@ -215,6 +217,7 @@ def test_what_lay_under_the_pointer_stays_lit_after_a_right_click(desk: Desk) ->
     hover = desk.view.canvas.overlay.hover
     assert hover is not None
     assert (hover.kind, hover.id) == ("key", 2)
+    assert desk.hints[-1].startswith("Drag: move 1 key")
 
 
 def test_hints_follow_the_pointer_and_the_modifiers(desk: Desk) -> None:
@@ -244,3 +247,11 @@ def test_what_is_under_the_pointer_lights_up_until_it_leaves(desk: Desk) -> None
     assert (hover.kind, hover.id) == ("key", 2)
     desk.hand.move(desk.hand.spot_of(1.5, 5.0))
     assert desk.view.canvas.overlay.hover is None
+
+
+def test_what_is_under_a_resting_pointer_is_looked_up_again_after_an_edit(desk: Desk) -> None:
+    desk.hand.move(desk.spot(desk.low, 2))
+    desk.document.do("Delete", lambda clip: edits.delete(clip, Selection.of_key(desk.low, 2)))
+    QTest.qWait(150)
+    hover = desk.view.canvas.overlay.hover
+    assert hover is None or hover.kind == "curve"

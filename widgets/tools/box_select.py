@@ -47,9 +47,8 @@ class BoxSelect:
         self.graph.set_box(None)
 
     def cancel(self) -> None:
-        """Give back the selection there was."""
+        """No box; the tool gives back the selection there was before the press."""
         self.graph.set_box(None)
-        self.graph.document.session.selection = self.before
 
     @property
     def hint(self) -> str:

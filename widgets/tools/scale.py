@@ -116,6 +116,9 @@ class ScaleTool(SelectTool):
     def __init__(self, graph: Graph) -> None:
         super().__init__(graph)
         self._shown = False
+        self._inside = False
+        self._stamp: tuple[object, ...] = ()
+        self._extent: Bounds | None = None
 
     # What is scaled
 
@@ -139,34 +142,37 @@ class ScaleTool(SelectTool):
 
     def frame(self) -> tuple[Bounds, QRectF] | None:
         """The extent of the keys and the box around it; None unless two keys or more are to be scaled."""
-        keys = self.keys()
-        bounds = bounds_of(keys) if keys.count > 1 else None
+        shown = self.session.shown_channels(self.graph.document.clip)
+        stamp = (self.session.selection, [(channel, channel.revision, channel.locked) for channel in shown])
+        if stamp != self._stamp:  # a hover asks for it as well, and most of them change nothing
+            keys = self.keys()
+            self._stamp, self._extent = stamp, bounds_of(keys) if keys.count > 1 else None
+        bounds = self._extent
         return (bounds, self.box(bounds)) if bounds is not None and self.sides(bounds) else None
 
     # Strokes
 
     def press(self, point: Point) -> bool:
-        """A press on the box keeps the selection; so does one on the ground inside it."""
-        frame, found = self.frame(), self.hit(point)
-        inside = frame is not None and frame[1].contains(point.x, point.y)
-        if found.kind == "frame" or (inside and found.kind in ("empty", "curve") and not point.ctrl):
-            self._begin(point)
-            self._on_click = self._clear if found.kind == "empty" else self._on_click
-            self.grabbed = found if found.kind == "frame" else Hit("frame", id=-1, time=point.time, value=point.value)
-            return False
+        """A press on the box keeps the selection; inside it the select tool's clicks go on working."""
+        frame = self.frame()
+        self._inside = frame is not None and frame[1].contains(point.x, point.y) and not point.ctrl
         return super().press(point)
 
     def drag_from(self, start: Point) -> Drag:
-        """The box and the selected keys are stretched; anything else is as in the select tool."""
+        """The box, a key and the ground inside the box stretch the keys; anything else is as in the select tool."""
         found, frame = self.grabbed, self.frame()
-        if frame is None or found.kind not in ("frame", "key") or (found.channel is not None and found.channel.locked):
+        if frame is None:
             return super().drag_from(start)
         bounds = frame[0]
-        if found.kind == "frame" and found.id >= 0:
+        if found.kind == "frame":
             side = SIDES[found.id]
             grip, pivot = bounds.at(side), bounds.at((-side[0], -side[1]))
             return self.drag_class(self.graph, start, self.keys(), pivot, grip, (side[0] != 0, side[1] != 0))
-        return self.drag_inside(start, bounds, (found.time, found.value))
+        if found.kind == "key" and found.channel is not None and not found.channel.locked:
+            return self.drag_inside(start, bounds, (found.time, found.value))
+        if self._inside and not found.is_handle:
+            return self.drag_inside(start, bounds, (start.time, start.value))
+        return super().drag_from(start)
 
     def drag_inside(self, start: Point, bounds: Bounds, grip: tuple[float, float]) -> Drag:
         """Stretch about the middle of the box."""

@@ -46,14 +46,18 @@ class SelectTool(Tool):
         self._begin(point)
         found = self.grabbed
         self._on_click = nothing
-        if found.channel is None:
+        if found.kind == "empty":
             self._on_click = nothing if point.shift or point.ctrl else self._clear
+        elif found.channel is None:
+            pass  # a part of what a tool of another kind draws around the keys
         elif found.channel.locked:
             self._on_click = self._activate
         elif found.kind == "key":
             self._press_key(point, found.channel, found.id)
         elif found.kind == "curve":
             self._on_click = self._insert if point.ctrl else self._choose_curve
+        else:
+            self._activate()
         return False
 
     def click(self, point: Point) -> None:
@@ -102,7 +106,10 @@ class SelectTool(Tool):
         stroke = self.pressed is not None
         super().cancel()
         if stroke:
-            self.session.selection, self.session.active = self.before
+            selection, active = self.before
+            alive = self.graph.document.clip.channels  # another clip may be why the stroke was cancelled
+            self.session.selection = selection.with_only(alive)
+            self.session.active = active if active in alive else None
 
     # What a press does
 
