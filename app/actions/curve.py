@@ -4,10 +4,11 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from app.actions.popups import pop_up_menu
-from app.actions.row import Action, Need
+from app.actions.row import AN_ACTIVE_CHANNEL, Action, Need
 from model import edits
+from model.document import added_keys
 from model.extrapolation import EXTRAPOLATIONS, Extrapolation
-from model.labels import channels_text
+from model.labels import channels_text, short_name
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
@@ -30,7 +31,27 @@ def _has_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> 
     return bool(channels) and all(getattr(channel, side) is mode for channel in channels)
 
 
+def _insert_key(window: "MainWindow") -> None:
+    channel, time = window.session.active, window.session.playhead
+    if channel is None:
+        return
+    label = f"Insert key on {short_name(channel)} at {time:.6g} s"
+    if window.document.do(label, lambda clip: edits.insert(clip, channel, time), selection=added_keys) is None:
+        window.say(
+            f"No key was inserted on {channel.name}: " + ("locked" if channel.locked else "there is one already")
+        )
+
+
 CURVE_ACTIONS = (
+    Action(
+        id="curve.insert_key",
+        menu="Curve",
+        label="&Insert Key at Playhead",
+        function=_insert_key,
+        icon="insert-key",
+        tip="Insert a key at the playhead on the active channel; the curve keeps its shape",
+        needs=(AN_ACTIVE_CHANNEL,),
+    ),
     *(
         Action(
             id=f"curve.{side}.{mode.word}",
