@@ -152,6 +152,7 @@ def _check_ids(rows: Rows, ids: NDArray[np.int64], gone: NDArray[np.int64]) -> N
         twice = int(np.count_nonzero(flags)) < len(ids)
         flags[gone] = False
         flags[: len(rows.row_of)] &= rows.row_of >= 0
+        flags[len(rows.row_of) :] = False
         strangers = ids[flags[ids]].tolist()
     if twice:
         raise ValueError("id: two keys of the run have the same one")
