@@ -46,21 +46,23 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
     """
     require_finite(d_time=d_time, d_value=d_value)
     keys_by_channel = list(selected_keys(selection))
+    limits: list[tuple[Floats, Floats] | None] = [None] * len(keys_by_channel)
     if d_time and not reorder:
-        for channel, keys in keys_by_channel:
-            d_time = _stopped(channel, keys, d_time)
+        limits = [_limits(channel, keys) for channel, keys in keys_by_channel]
+        for (_, keys), limit in zip(keys_by_channel, limits, strict=True):
+            d_time = _stopped(keys, limit, d_time)
     changes: list[Change] = []
-    for channel, keys in keys_by_channel:
+    for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
         rows = keys.copy()
         slack = 0.0
         with np.errstate(over="ignore"):
             if d_value:
                 rows["value"] = clamped(keys["value"] + d_value)
+            if d_time:
+                times = clamped(keys["time"] + d_time)
+                rows["time"] = strictly_increasing(times) if limit is None else _inside(times, limit, keys["time"])
             if d_time and reorder:
-                rows["time"] = strictly_increasing(clamped(keys["time"] + d_time))
                 slack = rounding_slack(keys, rows)
-            elif d_time:
-                rows["time"] = _short_of_neighbours(channel, keys, clamped(keys["time"] + d_time))
         changes += placed(channel, keys, rows, slack=slack)
     return changes
 
@@ -86,19 +88,20 @@ def _limits(channel: Channel, keys: Run) -> tuple[Floats, Floats]:
     return np.minimum(earliest, keys["time"]), np.maximum(latest, keys["time"])
 
 
-def _stopped(channel: Channel, keys: Run, d_time: float) -> float:
+def _stopped(keys: Run, limit: tuple[Floats, Floats] | None, d_time: float) -> float:
     """As much of *d_time* as leaves all *keys* short of their unmoved neighbours."""
-    earliest, latest = _limits(channel, keys)
+    if limit is None:
+        return d_time
+    earliest, latest = limit
     if d_time > 0.0:
         return min(d_time, float((latest - keys["time"]).min()))
     return max(d_time, float((earliest - keys["time"]).max()))
 
 
-def _short_of_neighbours(channel: Channel, keys: Run, times: Floats) -> Floats:
-    """*times* where rounding has carried none of them too far; else the times of *keys*."""
-    earliest, latest = _limits(channel, keys)
-    times = times.clip(earliest, latest)
-    return times if (times[1:] > times[:-1]).all() else keys["time"]
+def _inside(times: Floats, limit: tuple[Floats, Floats], before: Floats) -> Floats:
+    """*times*, brought back where rounding has carried them too far; *before* if they would meet."""
+    times = times.clip(*limit)
+    return times if (times[1:] > times[:-1]).all() else before
 
 
 def scale(
