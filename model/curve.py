@@ -1,7 +1,6 @@
 """Curve: the values that keys in rows stand for; what a channel is to the eye and to the player."""
 
 from bisect import bisect_right
-from collections.abc import Sequence
 from math import inf, nextafter
 from typing import NamedTuple
 
@@ -19,9 +18,10 @@ type Span = tuple[float, float, float, float, float, float, float]
 
 _NOWHERE: Span = (inf, -inf, 1.0, 0.0, 0.0, 0.0, 0.0)
 _SPAN_COLUMNS = [D_TIME, A, B, C]
-# Channels of so many rows keep their times as lists, and those of so many keys their spans, once values are asked for.
-_LISTED_ROWS = 512
+# Channels of up to so many keys keep their times and spans as Python numbers once values are asked for.
 _KEPT_SPANS = 4096
+# Once one value was sought for so many slots of a longer channel, a table has paid for itself.
+_SLOTS_SOUGHT = 64
 
 
 class Spans(NamedTuple):
@@ -49,8 +49,13 @@ class Curve:
         self._table: Table | None = None
         self._extremes: envelope.Extremes | None = None
         self._hit = _NOWHERE
-        self._kept_spans: dict[int, Span] = {}
-        self._row_times: dict[int, Sequence[float]] = {}
+        self._seen_times: memoryview[float] | None = None
+        self._records = self._rows.numbers.T
+        self._time0, self._time1 = inf, -inf
+        self._sought = 0
+        # All times of a short channel, and those of its spans that were asked for; at the end one that is nowhere.
+        self._times_kept: list[float] = []
+        self._spans_kept = [_NOWHERE]
 
     def __len__(self) -> int:
         return self._rows.size
@@ -59,8 +64,9 @@ class Curve:
         self.revision += 1
         self._ends = self._table = None
         self._hit = _NOWHERE
-        self._kept_spans.clear()
-        self._row_times.clear()
+        self._seen_times = None
+        self._sought = 0
+        self._times_kept, self._spans_kept = [], [_NOWHERE]
 
     def _the_ends(self) -> Ends:
         if self._ends is None:
@@ -90,23 +96,27 @@ class Curve:
 
     def value(self, time: float) -> float:
         """The value at one time, bit for bit that of `evaluate`."""
-        hit = self._hit
-        if not hit[0] <= time < hit[1]:
-            found = self._seek(float(time))
-            if found is None:
-                return self._value_outside(float(time))
-            hit = self._hit = found
-        time0, _, d_time, a, b, c, d = hit
+        span = self._hit
+        if not span[0] <= time < span[1]:
+            # Before the first key this is the last entry, in which no time is.
+            span = self._spans_kept[bisect_right(self._times_kept, time) - 1]
+            if not span[0] <= time < span[1]:
+                found = self._seek(float(time))
+                if found is None:
+                    return self._value_outside(float(time))
+                span = found
+            self._hit = span
+        time0, _, d_time, a, b, c, d = span
         u = (time - time0) / d_time
         value = d + u * (c + u * (b + u * a))
         if value and value - value == 0.0:
             return value
-        return self._careful_value(time, value, d)
+        return self._careful_value(time, value, span)
 
-    def _careful_value(self, time: float, value: float, d: float) -> float:
+    def _careful_value(self, time: float, value: float, span: Span) -> float:
         """*value* at *time*, which is 0 or no number, as `evaluate` gives it."""
         if value == 0.0:
-            return d if time == self._hit[0] else value
+            return span[6] if time == span[0] else value
         slot = self._rows.slot(self._rows.rank_at(time) - 1)
         return float(evaluation.careful(self._rows, np.array([slot]), np.array([time]))[0])
 
@@ -120,29 +130,42 @@ class Curve:
         return min(max(value + shift, -LARGEST), LARGEST) if shift else value
 
     def _seek(self, time: float) -> Span | None:
-        """The span that *time* lies in; None outside the keys."""
-        rows = self._rows
-        row = bisect_right(rows.starts, time) - 1 if rows.rows > 1 else 0
-        times = self._row_times.get(row)
+        """The span that *time* lies in; None outside the keys. Short channels keep it, and all their times."""
+        rows, times = self._rows, self._seen_times
         if times is None:
-            times = rows.number_grid[TIME, row, : rows.held(row)].tolist() if row >= 0 else []
-            if rows.rows <= _LISTED_ROWS:
-                self._row_times[row] = times
-        place = bisect_right(times, time) - 1
-        if place < 0:
+            times = self._begin_seeking()
+        if not self._time0 <= time <= self._time1:
             return None
-        slot = row * rows.width + place
-        span = self._kept_spans.get(slot)
-        if span is None:
-            time0, value, _, _, a, b, c, d_time = rows.numbers[:, slot].tolist()
-            if place + 1 < len(times):
-                time1 = times[place + 1]
+        table = self._table
+        if time == self._time1:
+            slot, time1 = len(times) - 1, nextafter(time, inf)
+        else:
+            # Spare slots repeat the key before them, so that the next slot is the next key's.
+            if table is not None and table.usable:
+                slot = table.slot(times, time)
             else:
-                time1 = rows.starts[row + 1] if row + 1 < rows.rows else nextafter(time0, inf)
-            span = (time0, time1, d_time, a, b, c, value)
-            if rows.size <= _KEPT_SPANS:
-                self._kept_spans[slot] = span
-        return span if time < span[1] else None
+                begin = (bisect_right(rows.starts, time) - 1) * rows.width
+                slot = bisect_right(times, time, begin, begin + rows.width) - 1
+                self._sought += _SLOTS_SOUGHT
+                if self._sought > len(times) > _KEPT_SPANS:
+                    self._table = Table(rows)
+            time1 = times[slot + 1]
+        time0, value, _, _, a, b, c, d_time = self._records[slot].tolist()
+        span = (time0, time1, d_time, a, b, c, value)
+        if len(self._spans_kept) > 1:
+            self._spans_kept[bisect_right(self._times_kept, time) - 1] = span
+        return span
+
+    def _begin_seeking(self) -> "memoryview[float]":
+        """Lay out what `_seek` reads; the times."""
+        rows = self._rows
+        self._time0, self._time1 = (float(rows.times[0]), float(rows.times[-1])) if rows.size else (inf, -inf)
+        # Numbers come out of a memoryview twice as quickly as out of an array.
+        self._seen_times, self._records = memoryview(rows.times), rows.numbers.T
+        if 0 < rows.size <= _KEPT_SPANS:
+            self._times_kept = rows.times[rows.slots(np.arange(rows.size))].tolist()
+            self._spans_kept = [_NOWHERE] * (rows.size + 1)
+        return self._seen_times
 
     def slopes(self, times: ArrayLike, side: str = "out") -> Floats:
         """The slopes at *times* in value per second; at a corner the one to the right ("out") or left ("in")."""

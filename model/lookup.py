@@ -39,9 +39,17 @@ class Table:
         self._last = np.empty_like(counts)
         self._last[0], self._last[1:] = 0, counts[:-1] - 1
         np.maximum(self._last, 0, out=self._last)
+        self._last_seen = memoryview(self._last)
 
     def _buckets(self, times: Floats) -> NDArray[np.int64]:
         return ((times - self._start) * self._per_second).astype(np.int64)
+
+    def slot(self, all_times: "memoryview[float]", time: float) -> int:
+        """The slot of the last key at or before *time*, which lies between the first and the last of *all_times*."""
+        found: int = self._last_seen[int((time - self._start) * self._per_second)]
+        while all_times[found + 1] <= time:
+            found += 1
+        return found
 
     def slots(self, all_times: Floats, times: Floats) -> Slots:
         """The slot of the last key at or before each of *times*, which lie among *all_times* of the rows."""
