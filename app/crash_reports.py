@@ -35,6 +35,7 @@ class CrashReports(QObject):
         self._file = _opened(self.path)
         self._lock = threading.RLock()
         self._busy = threading.local()
+        self._last, self._times = "", 0
 
     def install(self) -> None:
         """Take over the hooks of Python, of its threads and of Qt."""
@@ -62,11 +63,20 @@ class CrashReports(QObject):
         self._busy.reporting = True
         try:
             text = "".join(traceback.format_exception(error))
-            self._write(where or "error", text)
             line = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+            self._record(where or "error", text, line)
             self.reported.emit(line, f"{about_this_run()}\n{where}\n{text}".replace("\n\n", "\n"))
         finally:
             self._busy.reporting = False
+
+    def _record(self, kind: str, text: str, line: str) -> None:
+        """Write it down; what comes again and again, as from a paint event, only at every doubling of its number."""
+        self._times = self._times + 1 if text == self._last else 1
+        self._last = text
+        if self._times == 1:
+            self._write(kind, text)
+        elif self._times & (self._times - 1) == 0:
+            self._write(kind, f"{line} (for the {self._times}th time)")
 
     def _write(self, kind: str, text: str) -> None:
         stamp = time.strftime("%Y-%m-%d %H:%M:%S")

@@ -32,7 +32,7 @@ class Files(QObject):
     def __init__(self, window: "MainWindow") -> None:
         super().__init__(window)
         self._window = window
-        self.path = ""
+        self.path: str = ""
         self.name = UNTITLED
         self.format_name = NATIVE
         self._fingerprint: Fingerprint | None = None

@@ -4,7 +4,7 @@ from functools import partial
 from math import radians
 from typing import TYPE_CHECKING
 
-from app.actions.row import SELECTED_KEYS, Action, Need
+from app.actions.row import EDITABLE_CHANNELS, SELECTED_KEYS, Action, editable_channels
 from model import edits
 from model.document import added_keys
 from model.labels import channels_text, label_of
@@ -12,19 +12,11 @@ from widgets.tools import TOOLS
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
-    from model.channel import Channel
 
-EDITABLE_CHANNELS = Need(lambda w: bool(editable_channels(w)), "no channel is shown and unlocked")
 VALUE_STEP = 0.1  # of the channel's unit
 ANGLE_STEP = radians(1.0)
 # Name of the size, held modifier, how many steps, what it adds to the label.
 NUDGES = (("", "", 1.0, ""), ("_far", "Shift+", 10.0, " × 10"), ("_fine", "Ctrl+", 0.1, " × 0.1"))
-
-
-def editable_channels(window: "MainWindow") -> list["Channel"]:
-    """The shown channels that may be changed, in the clip's order."""
-    session = window.session
-    return [channel for channel in window.document.clip.channels if session.editable(channel)]
 
 
 def _set_tool(name: str, window: "MainWindow") -> None:

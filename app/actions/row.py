@@ -8,6 +8,7 @@ from PySide6.QtGui import QKeySequence
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
+    from model.channel import Channel
 
 type Shortcut = str | QKeySequence.StandardKey
 
@@ -46,8 +47,15 @@ class Action:
         return self.label.replace("&&", "\0").replace("&", "").replace("\0", "&").removesuffix("…")
 
 
+def editable_channels(window: "MainWindow") -> list["Channel"]:
+    """The shown channels that may be changed, in the clip's order."""
+    session = window.session
+    return [channel for channel in window.document.clip.channels if session.editable(channel)]
+
+
 A_CHANNEL = Need(lambda w: bool(w.document.clip.channels), "the clip has no channels")
 KEYS = Need(lambda w: w.document.clip.key_count > 0, "the clip has no keys")
 SELECTED_KEYS = Need(lambda w: bool(w.session.selection), "no keys are selected")
 AN_ACTIVE_CHANNEL = Need(lambda w: w.session.active is not None, "no channel is active")
+EDITABLE_CHANNELS = Need(lambda w: bool(editable_channels(w)), "no channel is shown and unlocked")
 SHOWN_CHANNELS = Need(lambda w: bool(w.session.shown_channels(w.document.clip)), "no channel is shown")
