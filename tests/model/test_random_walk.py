@@ -22,7 +22,7 @@ from model.selection import Selection
 from tests.model.editing import everything
 
 # Each example is some 50 edits, all of which are undone and redone at its end: steps like any other.
-EXAMPLES = 175
+EXAMPLES = 185
 STEPS = 20_000
 
 TIMES = st.one_of(
