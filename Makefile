@@ -4,6 +4,8 @@
 VENV ?= .venv
 PY   := $(VENV)/bin/python
 export VENV PYTHON UV
+# Without kept bytecode every start takes 0.3 s longer.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: run test bench screenshots clean
 

@@ -68,6 +68,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     if problem:
         print(problem, file=sys.stderr)
         return 2
+    from app.quick_start import spare_sources
+
+    spare_sources()
     if options.check:
         from app.check import run_check
 

@@ -6,7 +6,7 @@ import sys
 import threading
 from importlib.metadata import version
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QApplication
@@ -50,7 +50,7 @@ def run_check(path: str | None, skel: str | None, started: float) -> int:
         print(*(f"{name} {version(name)}" for name in PACKAGES), sep=", ")
         print(f"screen {QApplication.platformName()} {size.width()}x{size.height()} at {screen.devicePixelRatio():g}")
         print(f"{window.files.name}: {len(clip.channels)} channels, {clip.key_count} keys")
-        print(f"first picture {age:.2f} s after the start")
+        print(f"first picture {age:.2f} s after the start, {process_time():.2f} s of them at work")
         QApplication.exit(0)
 
     try:

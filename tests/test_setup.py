@@ -81,6 +81,16 @@ def test_help_and_version_come_without_qt_and_without_a_screen() -> None:
     assert "numpy" not in told.stderr
 
 
+def test_the_window_starts_without_a_look_into_the_source_of_its_modules() -> None:
+    code = (
+        "import inspect; from app.quick_start import spare_sources; spare_sources(); read = []; "
+        "inspect.getsource = lambda module: read.append(module.__name__) or ''; "
+        "import app.main_window, pyqtgraph; print(read)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stdout.strip() == "[]", done
+
+
 @LINUX_ONLY
 def test_missing_libraries_are_named_at_once_with_the_command_that_brings_them(monkeypatch: pytest.MonkeyPatch) -> None:
     absent = {"libEGL.so.1", "libxcb-cursor.so.0"}
