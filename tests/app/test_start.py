@@ -1,0 +1,62 @@
+"""The program starts on what it is given, says what it cannot open, and ends when it is asked to."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# Runs the program as main.py does and does one thing once the first picture is there.
+PROGRAM = """
+import sys
+from PySide6.QtCore import QTimer
+from app.main_window import run_window
+
+def first_picture(window):
+    print(window.windowTitle(), "|", window.files.path, "|", window.session.active.name, flush=True)
+    {then}
+
+sys.exit(run_window(sys.argv[1] or None, None, first_picture=first_picture))
+"""
+
+
+def run(path: str, then: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", PROGRAM.format(then=then), path],
+        cwd=ROOT,
+        env={**os.environ, "QT_QPA_PLATFORM": "offscreen"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+def test_without_a_file_a_sample_opens_that_belongs_to_nobody() -> None:
+    done = run("", "window.close()")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "bounce[*] — Hermite |  | ball.tx\n"
+
+
+def test_a_file_that_cannot_be_read_is_one_sentence_and_code_2(tmp_path: Path) -> None:
+    done = run(str(tmp_path / "nothing.anim"), "window.close()")
+    assert done.returncode == 2
+    assert "nothing.anim" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are another thing there")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_polite_signal_closes_the_window(number: signal.Signals) -> None:
+    done = run("", f"import os; os.kill(os.getpid(), {int(number)})")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_leaving_in_the_middle_of_a_drag_says_nothing() -> None:
+    then = "gesture = window.document.begin('Drag'); from PySide6.QtWidgets import QApplication; QApplication.exit(0)"
+    done = run("", then)
+    assert (done.returncode, done.stderr) == (0, "")
