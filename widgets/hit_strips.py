@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from model.channel import Channel
 from model.keyframe import TangentRule
 from model.selection import Selection
-from widgets.graph import Graph
 from widgets.lens import Lens
 
-# Strips are as wide as one pass over the channels is worth, and overlap by more than the radius of a hit.
-STRIP = 128
+# Strips are as wide as one pass over the channels is worth, narrower where a channel alone fills them with keys, and
+# overlap by more than the radius of a hit; pixels.
+WIDE, NARROW = 128, 32
 MARGIN = 16
+MANY_KEYS = 20_000
 SEGMENT = 2.0
 MAX_NEAR = 32
 
@@ -49,12 +50,17 @@ NO_IDS: Ints = np.empty(0, np.int64)
 NOTHING = Near([], NO_IDS, np.empty(0), np.empty(0), np.empty(0))
 
 
-class Strip:
-    """STRIP pixel columns of the view from *left* on, and a margin on each side."""
+def strip_width(lens: Lens, channels: list[Channel]) -> int:
+    """Pixels of the strips into which the view is best cut."""
+    keys = sum(channel.count_between(lens.t0, lens.t1) for channel in channels)
+    return NARROW if keys > MANY_KEYS * len(channels) else WIDE
 
-    def __init__(self, graph: Graph, index: int) -> None:
-        left = graph.plot_rect.left() + index * STRIP - MARGIN
-        self.columns = graph.time_from_x(left + np.arange(0.0, STRIP + 2 * MARGIN + SEGMENT, SEGMENT))
+
+class Strip:
+    """*width* pixel columns of the view from the one at *left* on, and a margin on each side."""
+
+    def __init__(self, lens: Lens, left: float, width: int) -> None:
+        self.columns = lens.time(left - MARGIN + np.arange(0.0, width + 2 * MARGIN + SEGMENT, SEGMENT))
         self.t0, self.t1 = float(self.columns[0]), float(self.columns[-1])
         self.segment = float(self.columns[1] - self.columns[0])
         self.rows: list[_Row] = []

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from model.channel import Channel
 from widgets.graph import Graph
-from widgets.hit_strips import STRIP, Near, Strip
+from widgets.hit_strips import Near, Strip, strip_width
 from widgets.lens import Lens
 
 RADIUS = 8.0
@@ -114,6 +114,7 @@ class HitTest:
     def __init__(self) -> None:
         self._axis: tuple[float, ...] = ()
         self._strips: dict[int, Strip] = {}
+        self._width = 1
         self._handle_stamp: tuple[object, ...] = ()
         self._handles = NO_HANDLES
 
@@ -124,7 +125,7 @@ class HitTest:
         if not channels:
             return
         lens = Lens(graph)
-        strip = self._strip(graph, lens, channels, x)
+        strip = self._strip(lens, channels, x)
         chosen, active = session.selection, session.active
         keys = _hits("key", strip.keys_near(lens, chosen, x, y, radius))
         yield sorted(keys, key=lambda hit: (_preferred(hit, chosen.contains(_channel(hit), hit.id)), hit.distance))
@@ -132,15 +133,15 @@ class HitTest:
         curves = _hits("curve", strip.curves_near(lens, x, y, radius))
         yield sorted(curves, key=lambda hit: _preferred(hit, hit.channel is active))
 
-    def _strip(self, graph: Graph, lens: Lens, channels: list[Channel], x: float) -> Strip:
+    def _strip(self, lens: Lens, channels: list[Channel], x: float) -> Strip:
         axis = (lens.left, lens.right, lens.t0, lens.t1)
         if axis != self._axis:
             self._strips.clear()
-            self._axis = axis
-        index = int((x - lens.left) // STRIP)
+            self._axis, self._width = axis, strip_width(lens, channels)
+        index = int((x - lens.left) // self._width)
         strip = self._strips.get(index)
         if strip is None:
-            strip = self._strips[index] = Strip(graph, index)
+            strip = self._strips[index] = Strip(lens, lens.left + index * self._width, self._width)
         strip.refresh(channels)
         return strip
 

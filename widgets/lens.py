@@ -37,7 +37,11 @@ class Lens:
         """Pixels, downwards, from values."""
         return self.bottom + (value - self.v0) / self._value_per_y
 
-    def time(self, x: float) -> float:
+    @overload
+    def time(self, x: float) -> float: ...
+    @overload
+    def time(self, x: Floats) -> Floats: ...
+    def time(self, x: float | Floats) -> float | Floats:
         """Seconds from pixels."""
         return self.t0 + (x - self.left) * self._time_per_x
 

@@ -251,7 +251,8 @@ class MouseRouter(QObject):
     def _stale(self, *_: object) -> None:
         if not self._later.isActive():
             self._later.start()
-        self._calm.start()
+        if not self.busy:  # a drag tells of every channel at every step, and looks again when it ends
+            self._calm.start()
 
     @guarded()
     def _hover_again(self) -> None:
