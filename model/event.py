@@ -14,11 +14,14 @@ class Event[*Args]:
     __slots__ = ("_slots",)
 
     def __init__(self) -> None:
-        self._slots: list[Callable[[], Callable[[*Args], object] | None]] = []
+        self._slots: list[Callable[[], Callable[..., object] | None]] = []
 
     def connect(self, slot: Callable[[*Args], object]) -> None:
         """Call *slot* at every emit from now on."""
-        self._slots.append(weakref.WeakMethod(slot) if ismethod(slot) else lambda: slot)
+        if ismethod(slot):
+            self._slots.append(weakref.WeakMethod(slot))
+        else:
+            self._slots.append(lambda: slot)
 
     def disconnect(self, slot: Callable[[*Args], object]) -> None:
         """Stop calling *slot*; nothing happens if it was not connected."""
