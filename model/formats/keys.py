@@ -1,5 +1,6 @@
 """Blocks of keys as text, both ways: one key a line, time, value, tangent in, tangent out."""
 
+import re
 from collections.abc import Sequence
 from itertools import compress, pairwise, repeat
 from typing import Final
@@ -8,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.formats.decimals import CELL, Cells, fill_cells
-from model.formats.error import MAX_KEYS, MAX_TOKEN_BYTES, TextError
+from model.formats.error import MAX_KEYS, MAX_TOKEN_BYTES, TextError, shown
 from model.formats.key_errors import first_error, order_error
 from model.formats.numerals import Columns, columns_of
 from model.keyframe import KEY_DTYPE, Run, TangentRule
@@ -17,6 +18,8 @@ _FIXED: Final = int(TangentRule.FIXED)
 BROKEN: Final = b"broken"
 _FIELDS: Final = ("time", "value", "rule_in", "slope_in", "rule_out", "slope_out", "broken")  # in the order of Columns
 type Words = dict[bytes, int]
+
+_FLAG: Final = re.compile(rb"[ \t\r\n]*(" + BROKEN + rb")(?=[ \t\r\n]|\Z)")
 
 _PIECE: Final = 1 << 18  # bytes read at once
 _SMALL: Final = 1 << 13  # bytes below which one word after the other is quicker than whole columns
@@ -35,8 +38,15 @@ def run_from_text(data: bytes, start: int, end: int, words_in: Words, words_out:
     position = start
     count = 0
     while position < end:
+        late_flag = _FLAG.match(data, position, min(end, position + _PIECE)) if flags and pieces else None
+        if late_flag is not None:  # of a key at the end of the piece before
+            if pieces[-1].broken[-1]:
+                raise TextError(late_flag.start(1), f"{shown(flag)} belongs behind a key, once")
+            pieces[-1].broken[-1] = True
+            position = late_flag.end()
         piece, position = _piece(data, position, end, words_in, words_out, flag)
-        pieces.append(piece)
+        if len(piece.times):
+            pieces.append(piece)
         count += len(piece.times)
         if count > MAX_KEYS:
             raise TextError(start, f"more than {MAX_KEYS} keys in one channel")
@@ -72,16 +82,15 @@ def _piece(data: bytes, start: int, end: int, words_in: Words, words_out: Words,
 
 
 def _end_of_keys(data: bytes, start: int, end: int, flag: bytes) -> int:
-    """Where, not far behind *start*, a key ends for sure, however the keys are laid out."""
+    """Where, not far behind *start*, a key ends, however the keys are laid out; its flag may still follow."""
     size = _PIECE
     while end - start > size:
         words = data[start : start + size].split()
-        # The last word may be cut off and a flag may follow, so one key more than is begun is left for later.
-        left, columns = 1, 0
-        wanted = 4 + (len(words) - words.count(flag) - 1) % 4
-        while left < len(words) and columns < wanted:
-            columns += words[-1 - left] != flag
+        # The last word may be cut off; before it, what is begun of a key is left for later.
+        left, columns = 1, len(words) - 1 - words[:-1].count(flag)
+        while columns % 4 and left < len(words):
             left += 1
+            columns -= words[-left] != flag
         if left < len(words):
             return start + len(data[start : start + size].rsplit(None, left)[0])
         size *= 2

@@ -1,11 +1,13 @@
 """Large blocks of keys are read by column, piece by piece: the same keys, and the same mistakes at the same places."""
 
+import re
+
 import numpy as np
 import pytest
 
 from model.channel import Channel
 from model.clip import Clip
-from model.formats import FormatError, read_bytes, write_bytes
+from model.formats import FormatError, keys, read_bytes, write_bytes
 from model.keyframe import Run, TangentRule, make_run
 
 N = 20_000
@@ -25,6 +27,7 @@ TEXT = write_bytes(Clip([Channel("c", RUN)]), "hermite")
 START = TEXT.index(b"keys {") + 7
 END = TEXT.index(b"}", START)
 KEYS = TEXT[START:END]
+MANY = b"".join(b"%d.0 0.5 flat flat\n" % i for i in range(-1000, 0))
 
 
 def read_keys(text: bytes) -> Run:
@@ -52,6 +55,18 @@ def test_many_keys_are_the_same_however_they_are_laid_out(text: bytes) -> None:
     for side in ("in", "out"):
         fixed = RUN[f"rule_{side}"] == TangentRule.FIXED
         assert again[f"slope_{side}"][fixed].tobytes() == RUN[f"slope_{side}"][fixed].tobytes()
+
+
+FEW = KEYS[:30_000].rpartition(b"\n")[0]
+
+
+@pytest.mark.parametrize("text", [FEW, b"\n".join(FEW.split())], ids=["a key a line", "a word a line"])
+def test_it_does_not_matter_where_a_piece_happens_to_end(text: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = read_keys(text)
+    monkeypatch.setattr(keys, "_SMALL", 100)
+    for size in range(400, 700, 3):
+        monkeypatch.setattr(keys, "_PIECE", size)
+        assert read_keys(text).tobytes() == expected.tobytes()
 
 
 MISTAKES = {
@@ -82,6 +97,51 @@ def test_a_mistake_among_many_keys_is_found_where_it_is(
     before += b"".join(w + b" " for w in words[:column])
     place = (before.count(b"\n") + 1, len(before) - before.rfind(b"\n"))
     assert (caught.value.line, caught.value.column) == place
+
+
+NO_NUMBERS = [
+    b"1.2.",
+    b"1.2.3",
+    b"1..2",
+    b"1..",
+    b".",
+    b"-.",
+    b"-",
+    b"+",
+    b"1e",
+    b".e1",
+    b"1.e",
+    b"e1",
+    b"--1",
+    b"1.-1",
+]
+
+
+@pytest.mark.parametrize("column", [0, 1, 2, 3])
+@pytest.mark.parametrize("word", NO_NUMBERS, ids=bytes.decode)
+def test_a_word_that_is_nearly_a_number_is_refused_among_many(word: bytes, column: int) -> None:
+    words = [b"0.5", b"1.5", b"2.5", b"3.5"]
+    words[column] = word
+    with pytest.raises(FormatError, match=re.escape(f"found '{word.decode()}'")):
+        read_keys(MANY + b" ".join(words) + b"\n")
+
+
+@pytest.mark.parametrize(
+    "word", [b"flat.", b".flat", b"flat.0", b"0.flat", b"smoothly", b"flatflatflat"], ids=bytes.decode
+)
+def test_a_word_that_is_nearly_a_rule_is_refused_among_many(word: bytes) -> None:
+    with pytest.raises(FormatError, match=re.escape(f"found '{word.decode()}'")):
+        read_keys(MANY + b"0.0 0.5 " + word + b" flat\n")
+
+
+@pytest.mark.parametrize("blanks", [b"\n", b" " * 3000], ids=["a word a line", "far apart"])
+def test_broken_twice_is_refused_wherever_a_piece_ends(blanks: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = b"0 1 flat flat broken broken\n1 1 flat flat\n".replace(b" ", blanks) + FEW.replace(b"broken", b"")
+    monkeypatch.setattr(keys, "_SMALL", 10)
+    for size in range(10, 40):
+        monkeypatch.setattr(keys, "_PIECE", size)
+        with pytest.raises(FormatError, match="'broken' belongs behind a key, once"):
+            read_keys(text)
 
 
 def test_many_short_channels_come_back_in_their_order() -> None:

@@ -82,3 +82,12 @@ def test_a_clip_of_other_keys_or_channels_is_different() -> None:
         "1 key is lost or added, in channel 0",
     ]
     assert differences(Content.of(clip), Content.of(Clip())) == ["1 channels become 0"]
+
+
+@pytest.mark.parametrize("field", ["time", "value"])
+def test_a_zero_that_lost_its_sign_is_a_difference(field: str) -> None:
+    run = make_run([0.0, 1], [0.0, 1])
+    other = run.copy()
+    other[field][0] = -0.0
+    contents = [Content.of(Clip([Channel("c", keys)])) for keys in (run, other)]
+    assert differences(*contents) == ["1 key is moved, in c"]

@@ -70,6 +70,16 @@ def test_any_decimal_reads_as_the_nearest_double(words: list[str]) -> None:
     assert list(map(float.hex, read_as_values(words * again))) == expected * again
 
 
+def test_decimals_with_more_digits_than_a_double_has_are_rounded_right() -> None:
+    digits = "12345678901234567890123456"
+    words = [
+        f"{whole}.{'0' * zeros}{digits[:count]}" for whole in (0, 7) for zeros in range(10) for count in range(1, 27)
+    ]
+    words += [f"{digits[:count]}{tail}" for count in range(1, 27) for tail in ("", ".", ".5", ".0000001")]
+    words += [f"-{word}" for word in words]
+    assert read_as_values(words * 10) == list(map(float, words * 10))
+
+
 def test_decimals_half_way_between_two_doubles_are_rounded_right() -> None:
     words = [f"{k}.{half}" for k in range(1 << 20, (1 << 20) + 2000) for half in ("00000000011641532", "5000000000116")]
     words += [repr(float(number)) + "5" for number in RANDOM.uniform(1, 2, 5000)]
