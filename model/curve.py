@@ -163,8 +163,8 @@ class Curve:
         # Numbers come out of a memoryview twice as quickly as out of an array.
         self._seen_times, self._records = memoryview(rows.times), rows.numbers.T
         if 0 < rows.size <= _KEPT_SPANS:
-            self._times_kept = rows.times[rows.slots(np.arange(rows.size))].tolist()
             self._spans_kept = [_NOWHERE] * (rows.size + 1)
+            self._times_kept = rows.times[rows.slots(np.arange(rows.size))].tolist()
         return self._seen_times
 
     def slopes(self, times: ArrayLike, side: str = "out") -> Floats:

@@ -29,10 +29,10 @@ class TangentRule(IntEnum):
     @classmethod
     def from_word(cls, word: str) -> "TangentRule":
         """The rule called *word*; ValueError if there is none."""
-        try:
-            return cls[word.upper()] if word == word.lower() else cls[""]
-        except KeyError:
-            raise ValueError(f"unknown tangent rule {word!r}; known: {', '.join(r.word for r in cls)}") from None
+        for rule in cls:
+            if rule.word == word:
+                return rule
+        raise ValueError(f"unknown tangent rule {word!r}; known: {', '.join(rule.word for rule in cls)}")
 
 
 KEY_DTYPE = np.dtype(
