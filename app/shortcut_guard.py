@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QTextEdit,
     QWidget,
 )
+from shiboken6 import isValid
 
 from widgets.guard import guarded
 
@@ -49,15 +50,11 @@ class ShortcutGuard(QObject):
             self._watch(None, app.focusWidget())
 
     def _watch(self, _old: QWidget | None, new: QWidget | None) -> None:
-        if self._watched is not None:
+        if self._watched is not None and isValid(self._watched):
             self._watched.removeEventFilter(self)
         self._watched = new
         if new is not None:
-            new.destroyed.connect(self._forget)
             new.installEventFilter(self)
-
-    def _forget(self) -> None:
-        self._watched = None
 
     @guarded(False)
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
