@@ -42,14 +42,15 @@ class StatusRow(QWidget):
         self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft)
         self.message.setObjectName("message")
         self.message.setAccessibleName("Message")
-        self.message.hide()  # leaves its room to the hint
+        self.message.hide()  # what is empty leaves its room to the others
         self.selection = QLabel()
         self.selection.setObjectName("selection_summary")
         self.selection.setTextFormat(Qt.TextFormat.PlainText)
         self.hint = ElidedLabel(Qt.AlignmentFlag.AlignRight)
         self.hint.setObjectName("mouse_hint")
         self.hint.setAccessibleName("What the mouse does here")
-        line = QHBoxLayout()
+        self.hint.hide()
+        self._line = line = QHBoxLayout()
         line.setContentsMargins(8, 0, 8, 0)
         line.setSpacing(16)
         line.addWidget(self.message, 2)
@@ -79,10 +80,16 @@ class StatusRow(QWidget):
         """Show *text* for a while; 0 keeps it until the next one."""
         self.message.setText(text)
         self.message.setVisible(bool(text))
+        self._place_selection()
         if milliseconds and text:
             self._timer.start(milliseconds)
         else:
             self._timer.stop()
+
+    def _place_selection(self) -> None:
+        """At the left while nothing stands beside it."""
+        alone = self.message.isHidden() and self.hint.isHidden()
+        self._line.setStretchFactor(self.selection, 1 if alone else 0)
 
     def _clear_message(self) -> None:
         self.say("")
@@ -94,6 +101,8 @@ class StatusRow(QWidget):
     def show_hint(self, text: str) -> None:
         """Say what the mouse does where it is."""
         self.hint.setText(text)
+        self.hint.setVisible(bool(text))
+        self._place_selection()
 
     def show_selection(self, text: str) -> None:
         """Say what is selected."""
