@@ -1,7 +1,6 @@
 """Lines: cubics as chains of points within a quarter of a pixel, and chains cut into dashes."""
 
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -20,10 +19,11 @@ MOST_PIECES = 4096
 
 
 class Line(NamedTuple):
-    """A chain of points in pixels; the steps of a curve are upright pieces of it."""
+    """A chain of points in pixels, and which span each begins a piece of; steps of a curve are upright pieces."""
 
     x: Floats
     y: Floats
+    span: NDArray[np.intp]
 
 
 def line_through(spans: Spans, window: Window, sideways: float = TOLERANCE) -> Line:
@@ -39,7 +39,7 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
     """A chain as of `line_through` for each of *many*, worked out together: half the work of a chain is fixed."""
     lengths = [len(spans.time0) for spans in many]
     if not any(lengths):
-        return [Line(np.empty(0), np.empty(0)) for _ in many]
+        return [Line(np.empty(0), np.empty(0), np.empty(0, np.intp)) for _ in many]
     spans = many[0] if len(many) == 1 else Spans(*map(np.concatenate, zip(*many, strict=True)))
     scale = -window.px_per_value
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -72,7 +72,7 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
         x, y = x0 + u * wide, d + u * (c + u * (b + u * a))
     near = y.min() >= -FAR and y.max() <= FAR and x.min() >= -FAR and x.max() <= FAR
     cuts = np.concatenate(([0], ends))[borders]
-    lines = map(Line, np.split(x, cuts), np.split(y, cuts)) if len(many) > 1 else (Line(x, y),)
+    lines = map(Line, *(np.split(column, cuts) for column in (x, y, which))) if len(many) > 1 else (Line(x, y, which),)
     return list(lines) if near else [kept_near(*line) for line in lines]
 
 
@@ -127,7 +127,7 @@ def _set_extrema(u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[
             u[starts[bent[hit]] + at] = place
 
 
-def kept_near(x: Floats, y: Floats) -> Line:
+def kept_near(x: Floats, y: Floats, span: NDArray[np.intp]) -> Line:
     """The chain cut where it leaves the pixels that Qt can paint; the slopes of what stays are kept."""
     y = np.clip(np.nan_to_num(y, nan=0.0), -HUGE, HUGE)
     for limit in (FAR, -FAR):
@@ -136,53 +136,67 @@ def kept_near(x: Floats, y: Floats) -> Line:
             part = (limit - y[at]) / (y[at + 1] - y[at])
             x = np.insert(x, at + 1, x[at] + part * (x[at + 1] - x[at]))
             y = np.insert(y, at + 1, limit)
-    return Line(np.clip(x, -FAR, FAR), np.clip(y, -FAR, FAR))
+            span = np.insert(span, at + 1, span[at])
+    return Line(np.clip(x, -FAR, FAR), np.clip(y, -FAR, FAR), span)
 
 
-def dashes(line: Line, pattern: tuple[float, ...], anchor: float) -> Floats:
+def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) -> Floats:
     """The drawn pieces (n, 4) of x0, y0, x1, y1 of a chain under a dash pattern (drawn, gap, ... in pixels).
 
-    Dashes are counted along x from *anchor*, not along the chain: an edit moves no dash beside it. Steps stay whole.
+    Each span begins the pattern anew, so that an edit moves no dash beside it. Only what lies between *top* and
+    *bottom* is cut: a chain may be very long where nobody sees it.
     """
-    x, y = line
-    if len(x) < 2:
-        return np.empty((0, 4))
-    marks = _marks(pattern, anchor, float(x[0]), float(x[-1]))
-    inner = marks[(marks > x[0]) & (marks < x[-1])]
-    after = np.searchsorted(x, inner)
-    px = np.insert(x, after, inner)
-    py = np.insert(y, after, np.interp(inner, x, y))
-    drawn = (np.searchsorted(marks, (px[:-1] + px[1:]) / 2, "right") - 1) % len(pattern) % 2 == 0
-    upright = px[:-1] == px[1:]
-    pieces: Floats = np.stack((px[:-1], py[:-1], px[1:], py[1:]), axis=1)
-    return pieces.compress(drawn | upright & (py[:-1] != py[1:]), axis=0)
+    x0, y0, x1, y1 = line.x[:-1], line.y[:-1], line.x[1:], line.y[1:]
+    length = np.hypot(x1 - x0, y1 - y0)
+    end = np.cumsum(length)
+    first = np.searchsorted(line.span, line.span[:-1])
+    start = end - length - np.concatenate(([0.0], end))[first]
+    seen = np.flatnonzero((length > 0) & (np.maximum(y0, y1) >= top) & (np.minimum(y0, y1) <= bottom))
+    x0, y0, start, length = x0[seen], y0[seen], start[seen], length[seen]
+    across, down = (x1[seen] - x0) / length, (y1[seen] - y0) / length
+    with np.errstate(divide="ignore", invalid="ignore"):
+        edges = np.sort(np.stack(((top - y0) / down, (bottom - y0) / down)), axis=0)
+    near = np.where(down, np.clip(edges[0], 0.0, length), 0.0)
+    far = np.where(down, np.clip(edges[1], 0.0, length), length)
+    return _cut(pattern, x0 - across * start, y0 - down * start, across, down, start + near, start + far)
 
 
 def straight_dashes(
-    x0: float, x1: float, y0: float, slope: float, pattern: tuple[float, ...], anchor: float, seen: tuple[float, float]
+    x: float, y: float, slope: float, seen: tuple[float, float], pattern: tuple[float, ...], anchor: float
 ) -> Floats:
-    """As `dashes`, of a line from x0, y0 to x1 that rises by *slope* a pixel; only pieces that touch *seen* in x."""
-    if abs(slope) * max(abs(x1 - x0), 1.0) + abs(y0) > FAR:
-        edges = [x0 + (limit - y0) / slope for limit in (-FAR, FAR)] if slope else [x0, x0]
-        low, high = max(x0, min(edges)), min(x1, max(edges))
-    else:
-        low, high = x0, x1
-    starts, ends = _drawn(pattern, anchor, *seen)
-    first, last = np.searchsorted(ends, low, "right"), np.searchsorted(starts, high)
-    starts, ends = np.maximum(starts[first:last], low), np.minimum(ends[first:last], high)
-    return np.stack((starts, y0 + (starts - x0) * slope, ends, y0 + (ends - x0) * slope), axis=1)
+    """As `dashes`, of the line through x, y that falls by *slope* a pixel, in the columns *seen*.
+
+    The pattern is counted from x = *anchor*: a key that is set on the line moves no dash.
+    """
+    stretch = float(np.hypot(1.0, slope))
+    begin = seen[0] - (seen[0] - anchor) % (sum(pattern) / stretch)
+    columns = (
+        begin,
+        y + (begin - x) * slope,
+        1 / stretch,
+        slope / stretch,
+        *((edge - begin) * stretch for edge in seen),
+    )
+    return _cut(pattern, *(np.array([number]) for number in columns))
 
 
-@lru_cache(maxsize=4)
-def _drawn(pattern: tuple[float, ...], anchor: float, x0: float, x1: float) -> tuple[Floats, Floats]:
-    """(begins, ends) of the drawn dashes, the same for all curves of a picture."""
-    marks = _marks(pattern, anchor, x0, x1)
-    return marks[::2], marks[1::2]
-
-
-def _marks(pattern: tuple[float, ...], anchor: float, x0: float, x1: float) -> Floats:
-    """Where dashes begin and end, whole turns of the pattern from one at or before *x0* to one at or after *x1*."""
+def _cut(
+    pattern: tuple[float, ...], x: Floats, y: Floats, across: Floats, down: Floats, near: Floats, far: Floats
+) -> Floats:
+    """The drawn parts between distances *near* and *far* of the rays from x, y."""
     period = float(sum(pattern))
-    turns = np.arange(np.floor((x0 - anchor) / period), np.floor((x1 - anchor) / period) + 1)
-    marks: Floats = anchor + turns[:, None] * period + np.cumsum((0.0, *pattern[:-1]))
-    return marks.reshape(-1)
+    turn = np.floor(near / period)
+    count = np.maximum(np.floor(far / period) - turn + 1, 0).astype(np.intp)
+    ray = np.repeat(np.arange(len(x)), count)
+    begin = (turn[ray] + np.arange(len(ray)) - np.repeat(np.cumsum(count) - count, count)) * period
+    pieces = []
+    offset = 0.0
+    for drawn, gap in zip(pattern[::2], pattern[1::2], strict=True):
+        s0 = np.maximum(begin + offset, near[ray])
+        s1 = np.minimum(begin + offset + drawn, far[ray])
+        some = np.flatnonzero(s0 < s1)
+        of, s0, s1 = ray[some], s0[some], s1[some]
+        ends = (x[of] + across[of] * s0, y[of] + down[of] * s0, x[of] + across[of] * s1, y[of] + down[of] * s1)
+        pieces.append(np.stack(ends, axis=1))
+        offset += drawn + gap
+    return np.concatenate(pieces)

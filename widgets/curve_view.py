@@ -58,7 +58,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         document.clip_replaced.connect(self._on_replaced)
         document.membership_changed.connect(self._on_membership)
         self._empty = True
-        self.router = MouseRouter(self)
+        self.router = MouseRouter(self, self)
         self.router.hint_changed.connect(self.hint_changed)
         self._on_replaced()
 

@@ -17,6 +17,8 @@ TIME_HEIGHT: Final = 40.0
 BAND_HEIGHT: Final = 5.0
 HEAD_HALF: Final = 6.0
 FRAME_SIZE: Final = 0.78
+FRAMES_APART: Final = 44.0
+FRAME_WIDTH: Final = 6.0
 # How far from the playhead its head may reach, or the numbers that make room for it.
 HEAD_REACH: Final = 110.0
 
@@ -60,12 +62,7 @@ def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
     painter.setFont(stage.font(LABEL_SIZE))
     painter.setPen(theme.ruler_text)
     _draw_centred(painter, stage, x.tolist(), stage.time_ticks.labels, LABEL_SIZE, stage.px(13))
-    frames, each = frame_ticks(window.t0, window.t1, stage.document.clip.frame_rate, window.width, stage.px(44))
-    if len(frames) and (each or window.px_per_second / stage.document.clip.frame_rate >= stage.px(6)):
-        painter.setFont(stage.font(FRAME_SIZE))
-        painter.setPen(theme.text_dim)
-        at = window.x_from_time(frames / stage.document.clip.frame_rate)
-        _draw_centred(painter, stage, at.tolist(), [f"f{frame}" for frame in frames.tolist()], FRAME_SIZE, stage.px(25))
+    _draw_frames(painter, stage)
     painter.restore()
     painter.fillRect(QRectF(0, 0, window.left, height), theme.ruler)
     painter.setPen(hair(theme.ruler_line))
@@ -79,18 +76,33 @@ def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
     )
 
 
+def _draw_frames(painter: QPainter, stage: Stage) -> None:
+    """Numbers of frames, where these are not too narrow to tell apart."""
+    window, rate = stage.window, stage.document.clip.frame_rate
+    if window.px_per_second / rate < stage.px(FRAME_WIDTH):
+        return
+    frames = frame_ticks(window.t0, window.t1, rate, window.width, stage.px(FRAMES_APART))
+    painter.setFont(stage.font(FRAME_SIZE))
+    painter.setPen(stage.theme.text_dim)
+    labels = ["f" + plain(frame, 0) for frame in frames.tolist()]
+    _draw_centred(painter, stage, window.x_from_time(frames / rate).tolist(), labels, FRAME_SIZE, stage.px(25))
+
+
 def _draw_centred(
     painter: QPainter, stage: Stage, x: list[float], labels: Sequence[str], size: float, baseline: float
 ) -> None:
     """Words centred at x, without those that would be cut at an end or by the playhead's head."""
     window, metrics = stage.window, stage.metrics(size)
-    head, gap = _head(stage)[0], stage.px(3)
+    gap, tip = stage.px(3), stage.px(HEAD_HALF)
+    head = _head(stage)[0]
+    stem = QRectF(window.x_from_time(stage.document.session.playhead) - tip, 0, 2 * tip, window.top)
     row = QRectF(0, baseline - metrics.capHeight(), 1, metrics.capHeight())
     for label, middle in zip(labels, x, strict=True):
         half = metrics.horizontalAdvance(label) / 2
         row.setLeft(middle - half - gap)
         row.setRight(middle + half + gap)
-        if row.left() >= window.left - 1 and row.right() <= window.right + 1 and not row.intersects(head):
+        whole = row.left() >= window.left - 1 and row.right() <= window.right + 1
+        if whole and not row.intersects(head) and not row.intersects(stem):
             painter.drawText(QPointF(middle - half, baseline), label)
 
 

@@ -91,13 +91,13 @@ def time_ticks(low: float, high: float, length: float, gap: float, width: Callab
         apart = max(need, apart * 1.25)
 
 
-def frame_ticks(low: float, high: float, rate: float, length: float, apart: float) -> tuple[NDArray[np.int64], bool]:
-    """(frames to number between two times in seconds, at least *apart* pixels from each other, whether all are)."""
+def frame_ticks(low: float, high: float, rate: float, length: float, apart: float) -> NDArray[np.int64]:
+    """The frames to number between two times in seconds, at least *apart* pixels from each other."""
     per_frame = length / (high - low) / rate
     step = next((step for step in FRAME_STEPS if step * per_frame >= apart), None)
     if step is None or not isfinite(rate) or max(abs(low), abs(high)) * rate > 1e15:
-        return np.empty(0, np.int64), False
-    return np.rint(multiples(low * rate, high * rate, step)).astype(np.int64), step == 1.0
+        return np.empty(0, np.int64)
+    return np.rint(multiples(low * rate, high * rate, step)).astype(np.int64)
 
 
 def multiples(low: float, high: float, step: float) -> Floats:

@@ -1,5 +1,6 @@
 """Trace: how one channel is drawn; who is drawn at rest and who under the hand."""
 
+from collections import Counter
 from collections.abc import Set
 from typing import Final, NamedTuple
 
@@ -13,6 +14,8 @@ from widgets.theme import Theme
 # With more curves than this, thin hard whole lines: soft or dashed ones cost twice the ink and are lost in a thicket.
 MOST_SOFT: Final = 48
 LOCKED_DASH: Final = (3.0, 3.0)
+# A theme's dashes are in widths of a pen that would be so wide; longer dashes keep a curve a curve.
+DASH_UNIT: Final = 2.2
 DIMMED: Final = 0.28
 LOCKED_DIMMED: Final = 0.5
 FAINT: Final = 0.4
@@ -42,12 +45,16 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
     soft = len(shown) <= MOST_SOFT
     active = session.active
     some_active = any(channel is active for _, channel in shown)
+    colors = {index: theme.channel_color(channel, index) for index, channel in shown}
+    alike = Counter(color.rgba() for color in colors.values())
     traces = []
     for index, channel in shown:
-        own = theme.channel_color(channel, index)
+        own = colors[index]
         part = LOCKED_DIMMED if channel.locked else DIMMED if some_active and channel is not active else 0.0
         color = mix(own, theme.background, part)
-        dash = LOCKED_DASH if channel.locked else theme.channel_dash(channel, index)
+        # A second code beside the colour, only where two of the shown curves have the same.
+        dash = theme.channel_dash(channel, index) if alike[own.rgba()] > 1 else ()
+        dash = LOCKED_DASH if channel.locked else tuple(DASH_UNIT * part for part in dash)
         traces.append(
             Trace(
                 channel,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from model.channel import Channel
 from model.extrapolation import Extrapolation
 from model.keyframe import TangentRule, make_run
-from model.lines import TOLERANCE, Line, dashes, kept_near, line_through, lines_through
+from model.lines import TOLERANCE, Line, dashes, kept_near, line_through, lines_through, straight_dashes
 from model.sampling import FAR, Window, columns, crowded, spans_outside
 
 type Floats = NDArray[np.float64]
@@ -118,7 +118,7 @@ def test_whatever_the_numbers_qt_gets_only_near_ones(v0: float, v1: float, slope
 
 
 def test_a_steep_line_keeps_its_slope_where_it_is_cut() -> None:
-    line = kept_near(np.array([0.0, 1000.0]), np.array([-1e9, 1e9]))
+    line = kept_near(np.array([0.0, 1000.0]), np.array([-1e9, 1e9]), np.zeros(2, np.intp))
     assert np.abs(line.y).max() == FAR
     inside = np.flatnonzero(np.abs(line.y[:-1] - line.y[1:]) == 2 * FAR)
     assert line.x[inside] == pytest.approx([500 - 0.05], abs=1e-6)
@@ -179,18 +179,39 @@ def test_one_spike_among_a_million_keys_reaches_its_pixel_at_every_zoom() -> Non
         assert (top[np.abs(np.arange(1600) - column) > 1 + 1600 * 0.001 / span] > 300).all()
 
 
-def test_dashes_stand_still_on_the_time_axis() -> None:
-    x = np.linspace(0.0, 100.0, 37)
-    before = dashes(Line(x, np.sin(x)), (5.0, 4.0), -3.0)
-    moved = dashes(Line(x, np.sin(x) + (x > 50) * 30), (5.0, 4.0), -3.0)
-    left = before[before[:, 2] < 45]
-    assert len(left)
-    assert left.tolist() == moved[moved[:, 2] < 45].tolist()
-    drawn = (before[:, 2] - before[:, 0]).sum()
-    assert drawn == pytest.approx(100 * 5 / 9, abs=5)
-    assert (((before[:, 0] + before[:, 2]) / 2 + 3.0) % 9.0 < 5.0).all()
+@pytest.mark.parametrize("pattern", [(5.0, 4.0), (9.0, 3.0, 2.0, 3.0)])
+def test_dashes_are_as_long_as_the_pattern_says_and_lie_on_the_line(pattern: tuple[float, ...]) -> None:
+    x = np.linspace(0.0, 300.0, 701)
+    line = Line(x, 100 + 80 * np.sin(x / 20), np.zeros(len(x), np.intp))
+    pieces = dashes(line, pattern, -1e3, 1e3)
+    pieces = pieces[np.argsort(pieces[:, 0])]
+    length = np.hypot(pieces[:, 2] - pieces[:, 0], pieces[:, 3] - pieces[:, 1])
+    whole = np.hypot(np.diff(line.x), np.diff(line.y)).sum()
+    assert length.sum() == pytest.approx(whole * sum(pattern[::2]) / sum(pattern), abs=max(pattern))
+    gaps = np.hypot(*(pieces[1:, :2] - pieces[:-1, 2:]).T)
+    assert set(np.round(gaps[gaps > 1e-6], 0)) <= set(pattern[1::2])
+    assert distance(pieces[:, 0], pieces[:, 1], line).max() < 1e-9
 
 
-def test_dashes_leave_steps_whole() -> None:
-    pieces = dashes(Line(np.array([0.0, 7.0, 7.0, 20.0]), np.array([0.0, 0.0, 50.0, 50.0])), (5.0, 4.0), 0.0)
-    assert [7.0, 0.0, 7.0, 50.0] in pieces.tolist()
+def test_dashes_begin_anew_at_every_key_so_that_edits_move_none_beside_them() -> None:
+    run = make_run([0, 1, 2, 3, 4, 5], [0, 1, 0, 1, 0, 1])
+    window = Window(0, 0, 600, 400, 0, 5, -1, 2)
+    before = dashes(line_through(Channel("c", run).spans_between(0, 5), window), (7.0, 5.0), 0, 400)
+    run["value"][1] = 1.5
+    after = dashes(line_through(Channel("c", run).spans_between(0, 5), window), (7.0, 5.0), 0, 400)
+    right = [pieces[pieces[:, 0] > window.x_from_time(3.001)].tolist() for pieces in (before, after)]
+    assert right[0] == right[1] != []
+
+
+def test_a_line_of_a_million_pixels_costs_no_million_dashes() -> None:
+    line = Line(np.array([0.0, 1.0]), np.array([-FAR, FAR]), np.zeros(2, np.intp))
+    assert len(dashes(line, (3.0, 4.0), 0.0, 900.0)) == pytest.approx(900 / 7, abs=2)
+    assert len(straight_dashes(0.0, 0.0, 0.5, (1e6, 1e6 + 100), (3.0, 4.0), 0.0)) == pytest.approx(112 / 7, abs=2)
+
+
+def test_a_key_set_on_a_straight_line_moves_none_of_its_dashes() -> None:
+    pieces = straight_dashes(100.0, 50.0, 0.75, (100.0, 180.0), (3.0, 4.0), 13.0)
+    later = straight_dashes(140.0, 80.0, 0.75, (140.0, 180.0), (3.0, 4.0), 13.0)
+    assert (pieces[:, 1] - 50) == pytest.approx((pieces[:, 0] - 100) * 0.75)
+    assert np.hypot(*(pieces[1:-1, 2:] - pieces[1:-1, :2]).T) == pytest.approx(3.0)
+    assert pieces[pieces[:, 0] > 140] == pytest.approx(later[later[:, 0] > 140])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
 
 from model import edits
 from model.channel import Channel
@@ -194,11 +195,12 @@ IN_A_GESTURE: Final = (User.end_drag, User.move_playhead, User.pan, User.hover, 
 @pytest.mark.parametrize("ratio", RATIOS)
 @pytest.mark.parametrize("seed", range(3))
 def test_strips_leave_the_pixels_of_a_full_repaint(
-    qtbot: object, monkeypatch: pytest.MonkeyPatch, seed: int, ratio: float, slow: bool
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, seed: int, ratio: float, slow: bool
 ) -> None:
     if slow:  # every picture is previewed first, and finished in slices
         monkeypatch.setattr("widgets.backdrop.QUICK", -1.0)
     view = view_of(sample_clip(seed))
+    qtbot.addWidget(view)
     screen = Screen(view, ratio)
     user = User(view, screen, seed)
     told = []
@@ -211,4 +213,3 @@ def test_strips_leave_the_pixels_of_a_full_repaint(
             shown = screen.shown()
             wrong = int((shown != screen.painted_anew()).sum())
             assert wrong == 0, f"{wrong} pixels are stale after step {step}: {told[-12:]}"
-    view.close()

@@ -60,7 +60,7 @@ def draw_line(
     width: int,
     pattern: tuple[float, ...],
 ) -> None:
-    """One chain, dashed along time if there is a pattern (in logical pixels)."""
+    """One chain, dashed if there is a pattern (in logical pixels)."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
     pen = hair(color)
     if not pattern:
@@ -70,12 +70,7 @@ def draw_line(
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(pen)
     scaled = tuple(part * window.unit for part in pattern)
-    draw_lines(painter, dashes(line, scaled, anchor_of(window, scaled)), width)
-
-
-def anchor_of(window: Window, pattern: tuple[float, ...]) -> float:
-    """An x from which dashes are counted so that they move with the curves when the view does."""
-    return window.left - (window.t0 * window.px_per_second) % sum(pattern)
+    draw_lines(painter, dashes(line, scaled, window.top - REACH, window.bottom + REACH), width)
 
 
 def draw_columns(

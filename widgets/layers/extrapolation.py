@@ -8,14 +8,14 @@ from PySide6.QtGui import QPainter
 
 from model.channel import Spans
 from model.keyframe import Keyframe
-from model.lines import line_through, straight_dashes
-from model.sampling import FAR, slope_outside, spans_outside
-from widgets.layers.curves import REACH, anchor_of, draw_columns, draw_line
+from model.lines import HUGE, line_through, straight_dashes
+from model.sampling import slope_outside, spans_outside
+from widgets.layers.curves import REACH, draw_columns, draw_line
 from widgets.painting import draw_lines, hair
 from widgets.stage import Stage
 from widgets.traces import Trace
 
-DASH: Final = (5.0, 4.0)
+DASH: Final = (3.0, 4.0)
 # How many pixel columns are drawn, and then left out, where repeats are too dense for dashes.
 STRIPES: Final = 4.0
 
@@ -35,36 +35,31 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
             if slope is None:
                 _draw_repeats(painter, stage, trace, low, high, after=after)
             else:
-                _draw_straight(painter, stage, trace, slope, end, (x0 - REACH, x1 + REACH), after=after)
+                seen = (max(x0 - REACH, edge), x1 + REACH) if after else (x0 - REACH, min(x1 + REACH, edge))
+                _draw_straight(painter, stage, trace, slope, end, seen)
 
 
 def _draw_straight(
-    painter: QPainter,
-    stage: Stage,
-    trace: Trace,
-    slope: float,
-    end: Keyframe,
-    seen: tuple[float, float],
-    *,
-    after: bool,
+    painter: QPainter, stage: Stage, trace: Trace, slope: float, end: Keyframe, seen: tuple[float, float]
 ) -> None:
+    """The line through the end key with this slope, between two columns."""
     window = stage.window
-    x = min(max(window.x_from_time(end.time), -FAR), FAR)
-    # From a key far beside the window the line is measured at the window's edge, where pixels are exact.
-    start = max(x, window.left - REACH) if after else min(x, window.right + REACH)
-    value = end.value + slope * (window.time_from_x(start) - end.time)
-    fall = -slope * (window.px_per_value / window.px_per_second)
-    y = min(max(window.y_from_value(value), -1e15), 1e15)
-    if not slope and not window.top - REACH <= y <= window.bottom + REACH:
+    fall = min(max(-slope * (window.px_per_value / window.px_per_second), -HUGE), HUGE)
+    x, y = window.x_from_time(end.time), min(max(window.y_from_value(end.value), -HUGE), HUGE)
+    low, high = seen
+    if fall:
+        edges = sorted(x + (edge - y) / fall for edge in (window.top - REACH, window.bottom + REACH))
+        low, high = max(low, edges[0]), min(high, edges[1])
+    elif not window.top - REACH <= y <= window.bottom + REACH:
         return
-    pattern = tuple(part * window.unit for part in DASH)
-    x0, x1 = (start, window.right + REACH) if after else (window.left - REACH, start)
-    y0 = y if after else y + (x0 - start) * fall
+    if high <= low:
+        return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
     pen = hair(trace.faint)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(pen)
-    lines = straight_dashes(x0, x1, min(max(y0, -1e15), 1e15), fall, pattern, anchor_of(window, pattern), seen)
+    pattern = tuple(part * window.unit for part in DASH)
+    lines = straight_dashes(x, y, fall, (low, high), pattern, window.x_from_time(0.0))
     draw_lines(painter, lines, _thickness(trace, window.unit))
 
 
