@@ -154,6 +154,10 @@ class MainWindow(QMainWindow):
             self.session.solo = frozenset()
         self.session.active = channel
 
+    def focus_graph(self, *_: object) -> None:
+        """Let the keyboard be the graph's."""
+        self.view.setFocus()
+
     def focus_filter(self) -> None:
         """Go to the field that filters the channels."""
         self.docks["channels"].show()

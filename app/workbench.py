@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QUndoView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QDockWidget, QLineEdit, QUndoView, QVBoxLayout, QWidget
 
 from app.clip_file import Opened
 from app.context_menu import ContextMenu
@@ -27,6 +27,7 @@ from widgets.key_inspector import KeyInspector
 from widgets.soon import Soon
 from widgets.theme import Theme
 from widgets.transport import Transport
+from widgets.value_field import ValueField
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
@@ -83,7 +84,19 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
     watcher.refresh()
     window.refresh_title()
     window.view.frame_all()
+    _hand_keyboard_back(window)
     window.view.setFocus()
+
+
+def _hand_keyboard_back(window: "MainWindow") -> None:
+    """After an entry or a choice in a panel the keys are the graph's again, so that a shortcut never types."""
+    for panel in (window.inspector, window.transport):
+        for field in panel.findChildren(ValueField):
+            field.done.connect(window.focus_graph)
+        for combo in panel.findChildren(QComboBox):
+            combo.activated.connect(window.focus_graph)
+        for line in panel.findChildren(QLineEdit):
+            line.returnPressed.connect(window.focus_graph)
 
 
 def _make_parts(window: "MainWindow") -> None:

@@ -47,6 +47,7 @@ class ValueField(QLineEdit):
     """Shows one number (or that there are several) and edits them all; what is not touched is never written."""
 
     status = Signal(str)
+    done = Signal()  # Enter kept the entry, or Esc took it back: the keyboard may go back to the graph
 
     def __init__(self, target: Target, theme: Theme, name: str, tip: str = "", parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -198,11 +199,10 @@ class ValueField(QLineEdit):
     @guarded(False)
     def event(self, event: QEvent) -> bool:
         # Esc and the arrows belong to the field while it has the focus, not to shortcuts of the window.
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
-            esc = event.key() == Qt.Key.Key_Escape and self.editing
-            if esc or event.key() in (Qt.Key.Key_Up, Qt.Key.Key_Down):
-                event.accept()
-                return True
+        override = event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent)
+        if override and event.key() in (Qt.Key.Key_Escape, Qt.Key.Key_Up, Qt.Key.Key_Down):
+            event.accept()
+            return True
         return super().event(event)
 
     @guarded()
@@ -214,9 +214,11 @@ class ValueField(QLineEdit):
             if not self._problem:
                 self.finish()
                 self.selectAll()
-        elif key == Qt.Key.Key_Escape and self.editing:
+                self.done.emit()
+        elif key == Qt.Key.Key_Escape:
             self.take_back()
             self.selectAll()
+            self.done.emit()
         else:
             super().keyPressEvent(event)
 
