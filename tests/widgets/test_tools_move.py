@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QCloseEvent, QKeyEvent, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
@@ -256,15 +256,14 @@ def test_dragging_the_curve_beyond_its_keys_boxes(desk: Desk) -> None:
 # Ways out
 
 
-@pytest.mark.parametrize("way_out", ["escape", "right button", "focus", "window", "hide", "undo", "other clip", "tool"])
+@pytest.mark.parametrize(
+    "way_out", ["escape", "right button", "focus", "window", "hide", "close", "undo", "other clip", "tool"]
+)
 def test_every_way_out_of_a_drag_leaves_no_trace(desk: Desk, way_out: str) -> None:
     before = desk.keys()
     desk.select(desk.high, 1)
     chosen = desk.session.selection
     spot = desk.spot(desk.low, 2)
-    if way_out == "hide":
-        desk.view.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        desk.view.clearFocus()
     desk.hand.drag(spot, beside(spot, 60, -40), drop=False)
     assert desk.keys() != before
     leave(desk, way_out)
@@ -296,7 +295,9 @@ def leave(desk: Desk, way_out: str) -> None:
         case "window":
             QApplication.sendEvent(view, QEvent(QEvent.Type.WindowDeactivate))
         case "hide":
-            view.hide()
+            QApplication.sendEvent(view, QEvent(QEvent.Type.Hide))
+        case "close":
+            QApplication.sendEvent(view, QCloseEvent())
         case "undo":
             desk.hand.key(Qt.Key.Key_Z, CTRL)
         case "other clip":
@@ -419,14 +420,39 @@ def test_the_view_scrolls_while_a_drag_is_held_at_its_edge(desk: Desk) -> None:
     assert desk.low.key(5).time == 4.0
 
 
-def test_the_view_does_not_scroll_by_itself_when_a_key_at_its_edge_is_pressed(desk: Desk) -> None:
-    desk.view.set_view(ViewRange(-1.0, 4.004, -5.0, 15.0))
+@pytest.mark.parametrize(("key", "view"), [(5, ViewRange(-1.0, 4.004, -5.0, 15.0)), (1, ViewRange(-0.004, 5, -5, 15))])
+def test_the_view_does_not_scroll_by_itself_when_a_key_at_its_edge_is_pressed(
+    desk: Desk, key: int, view: ViewRange
+) -> None:
+    desk.view.set_view(view)
     before = desk.view.view_range
-    spot = desk.spot(desk.low, 5)
+    spot = desk.spot(desk.low, key)
     desk.hand.press(spot)
     desk.hand.move(beside(spot, 0, -30))
     QTest.qWait(60)
     assert desk.view.view_range == before
+    desk.hand.release()
+
+
+def test_a_drag_that_shift_has_locked_scrolls_along_its_axis_only(desk: Desk) -> None:
+    before = desk.view.view_range
+    spot = desk.spot(desk.low, 5)
+    desk.hand.press(spot)
+    desk.hand.move(beside(spot, 2, -30), SHIFT)
+    desk.hand.move((desk.view.plot_rect.right() + 20.0, desk.view.plot_rect.top() - 20.0), SHIFT)
+    QTest.qWait(80)
+    assert desk.view.view_range.v1 > before.v1
+    assert desk.view.view_range[:2] == before[:2]
+    desk.hand.release(modifiers=SHIFT)
+    assert desk.low.key(5).time == 4.0
+
+
+def test_a_key_stays_under_the_pointer_when_the_view_is_panned_in_the_middle_of_a_drag(desk: Desk) -> None:
+    spot = desk.spot(desk.low, 2)
+    desk.hand.press(spot)
+    desk.hand.move(beside(spot, 50, 0))
+    desk.hand.wheel(beside(spot, 50, 0), 0, sideways=90)
+    assert desk.view.x_from_time(desk.low.key(2).time) == pytest.approx(spot[0] + 50)
     desk.hand.release()
 
 
