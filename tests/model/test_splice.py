@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
@@ -129,6 +130,30 @@ def test_a_change_inside_a_cycle_reaches_as_far_as_the_cycle() -> None:
     after = run.copy()
     after["value"] = 1.0
     assert channel.splice(run, after)[:2] == (2.0, np.inf)
+
+
+@pytest.mark.parametrize(
+    ("field", "mode", "reach"),
+    [
+        ("slope_out", Extrapolation.CONSTANT, (1.0, 2.0)),
+        ("slope_out", Extrapolation.LINEAR, (1.0, np.inf)),
+        ("slope_out", Extrapolation.BOUNCE, (-np.inf, np.inf)),
+        ("value", Extrapolation.CONSTANT, (1.0, np.inf)),
+        ("value", Extrapolation.LINEAR, (1.0, np.inf)),
+        ("time", Extrapolation.CONSTANT, (1.0, 2.5)),
+        ("time", Extrapolation.LINEAR, (1.0, np.inf)),
+    ],
+)
+def test_a_change_of_the_last_key_reaches_beyond_it_if_it_shows_there(
+    field: str, mode: Extrapolation, reach: tuple[float, float]
+) -> None:
+    rules = TangentRule.FIXED
+    channel = Channel("x", make_run([0.0, 1.0, 2.0], [0.0, 1.0, 0.5], 0, 0, rules, rules), pre=mode, post=mode)
+    before = channel.run_of([3])
+    after = before.copy()
+    after[field] += 0.5
+    found = channel.splice(before, after)
+    assert (found.t0, found.t1) == reach
 
 
 class Walk(RuleBasedStateMachine):
