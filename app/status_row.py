@@ -36,8 +36,9 @@ class ElidedLabel(QLabel):
 class StatusRow(QWidget):
     """The transport, then messages, the selection and mouse hints: beside it where there is room, else under it."""
 
-    def __init__(self, transport: QWidget, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, transport: QWidget, width: int) -> None:
+        """*width* is what it will have at first, so that the first picture is not laid out twice."""
+        super().__init__()
         self._transport = transport
         self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft)
         self.message.setObjectName("message")
@@ -61,6 +62,7 @@ class StatusRow(QWidget):
         self._rows.setSpacing(2)
         self._rows.addWidget(transport)
         self._rows.addLayout(line, 1)
+        self._arrange(width)
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._clear_message)
@@ -72,7 +74,10 @@ class StatusRow(QWidget):
     @guarded()
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        beside = event.size().width() >= self._transport.sizeHint().width() + WIDTH_FOR_WORDS
+        self._arrange(event.size().width())
+
+    def _arrange(self, width: int) -> None:
+        beside = width >= self._transport.sizeHint().width() + WIDTH_FOR_WORDS
         directions = QBoxLayout.Direction
         self._rows.setDirection(directions.LeftToRight if beside else directions.TopToBottom)
 

@@ -108,7 +108,7 @@ def _make_parts(window: "MainWindow") -> None:
     window.inspector = KeyInspector(document, theme)
     window.transport = Transport(document, theme)
     window.crash_bar = CrashBar(str(log_path()))
-    window.status = StatusRow(window.transport)
+    window.status = StatusRow(window.transport, window.width())
     middle = QWidget()
     column = QVBoxLayout(middle)
     column.setContentsMargins(0, 0, 0, 0)

@@ -90,6 +90,7 @@ def make_window(qtbot: QtBot, settings: Settings) -> Iterator[MakeWindow]:
         window.resize(1200, 800)
         window.show()
         qtbot.waitExposed(window)
+        QCoreApplication.processEvents()
         windows.append(window)
         return window
 
