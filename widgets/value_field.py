@@ -43,6 +43,9 @@ class Target(Protocol):
         """Take back what is shown."""
 
 
+OWN_KEYS: Final = (Qt.Key.Key_Escape, Qt.Key.Key_Up, Qt.Key.Key_Down)
+
+
 class ValueField(QLineEdit):
     """Shows one number (or that there are several) and edits them all; what is not touched is never written."""
 
@@ -199,8 +202,7 @@ class ValueField(QLineEdit):
     @guarded(False)
     def event(self, event: QEvent) -> bool:
         # Esc and the arrows belong to the field while it has the focus, not to shortcuts of the window.
-        override = event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent)
-        if override and event.key() in (Qt.Key.Key_Escape, Qt.Key.Key_Up, Qt.Key.Key_Down):
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride and event.key() in OWN_KEYS:
             event.accept()
             return True
         return super().event(event)

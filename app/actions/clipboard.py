@@ -146,12 +146,13 @@ CLIPBOARD_ACTIONS = (
     ),
     Action(
         id="edit.paste_special",
-        menu="Edit",
-        label="Paste Special Menu",
+        menu="Edit/Paste Special",
+        label="Show at the &Mouse",
         function=lambda w: pop_up_menu(w, "Edit/Paste Special"),
         shortcuts=("Ctrl+Shift+V",),
-        tip="Show the other ways to paste at the mouse",
+        tip="Show the other ways to paste in a menu at the mouse",
         needs=(A_CHANNEL,),
+        begins_group=True,
     ),
     Action(
         id="edit.duplicate",

@@ -81,7 +81,7 @@ KEY_ACTIONS = (
     Action(
         id="key.at_playhead",
         menu="Key",
-        label="&Key at Playhead",
+        label="&Key at Playhead on Shown Channels",
         function=_key_at_playhead,
         shortcuts=("S", "I"),
         icon="insert-key",

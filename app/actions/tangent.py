@@ -100,10 +100,10 @@ TANGENT_ACTIONS = (
     Action(
         id="tangent.menu",
         menu="Tangent",
-        label="Rule &Menu",
+        label="Rules at the &Mouse",
         function=lambda w: pop_up_menu(w, "Tangent"),
         shortcuts=("V",),
-        tip="Show this menu at the mouse",
+        tip="Show these rules in a menu at the mouse",
         needs=(SELECTED_KEYS,),
         begins_group=True,
     ),

@@ -25,7 +25,7 @@ TOOLS = {
     row.name: row
     for row in (
         ToolRow(
-            "select", "Select and move", "select", "W", "Select, move and turn; Ctrl+click inserts a key", SelectTool
+            "select", "Select and Move", "select", "W", "Select, move and turn; Ctrl+click inserts a key", SelectTool
         ),
         ToolRow("scale", "Scale", "scale", "R", "Scale the selected keys in time and value", ScaleTool),
         ToolRow("retime", "Retime", "retime", "T", "Stretch keys in time; the other end stays", RetimeTool),
