@@ -1,16 +1,16 @@
 """Canvas: the one graphics item that paints all curves, and the listener that knows which pixels a change touches."""
 
+from collections.abc import Callable
 from math import ceil, floor
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from PySide6.QtCore import QRect, QRectF, Qt, QTimer
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
-from shiboken6 import isValid
 
 from model.channel import Channel
-from model.clip import Clip
 from model.document import Document
+from model.event import Event
 from model.sampling import Window
 from model.selection import Selection
 from widgets import rulers
@@ -57,20 +57,26 @@ class Canvas(QGraphicsItem):
 
     def _listen(self) -> None:
         document, session = self._document, self._document.session
-        document.changed.connect(self._on_changed)
-        document.setting_changed.connect(self._on_setting)
-        document.gesture_changed.connect(self._on_gesture)
-        document.membership_changed.connect(self.restyle)
-        document.clip_replaced.connect(self._on_replaced)
-        session.selection_changed.connect(self._on_selection)
-        session.active_changed.connect(self.restyle)
-        session.visibility_changed.connect(self.restyle)
-        session.playhead_changed.connect(self._on_playhead)
-        self._theme.theme_changed.connect(self._on_theme)
+        self._heard: tuple[tuple[Event[*tuple[Any, ...]], Callable[..., None]], ...] = (
+            (document.changed, self._on_changed),
+            (document.setting_changed, self.restyle),
+            (document.gesture_changed, self._on_gesture),
+            (document.membership_changed, self.restyle),
+            (document.clip_replaced, self._on_replaced),
+            (session.selection_changed, self._on_selection),
+            (session.active_changed, self.restyle),
+            (session.visibility_changed, self.restyle),
+            (session.playhead_changed, self._on_playhead),
+        )
+        for event, slot in self._heard:
+            event.connect(slot)
+        self._theme.theme_changed.connect(self.restyle)
 
-    def _on_theme(self) -> None:
-        if isValid(self._view):  # the theme outlives every window, and may change before the garbage is collected
-            self.restyle()
+    def silence(self) -> None:
+        """Stop listening: the view is gone, and the document and the theme may live on."""
+        for event, slot in self._heard:
+            event.disconnect(slot)
+        self._theme.theme_changed.disconnect(self.restyle)
 
     # --- Qt
 
@@ -234,9 +240,6 @@ class Canvas(QGraphicsItem):
     def _on_selection(self) -> None:
         if self._document.session.selection != self._selection:
             self.restyle()
-
-    def _on_setting(self, target: Channel | Clip, field: str) -> None:
-        self.restyle()
 
     def _on_replaced(self) -> None:
         self._touched.clear()

@@ -55,6 +55,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         self._set_up()
         self.canvas = Canvas(self, document, self.theme)
         self.scene().addItem(self.canvas)
+        self.viewport().destroyed.connect(self.canvas.silence)
         document.clip_replaced.connect(self._on_replaced)
         document.membership_changed.connect(self._on_membership)
         self._empty = True

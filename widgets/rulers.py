@@ -81,7 +81,9 @@ def _draw_frames(painter: QPainter, stage: Stage) -> None:
     window, rate = stage.window, stage.document.clip.frame_rate
     if window.px_per_second / rate < stage.px(FRAME_WIDTH):
         return
-    frames = frame_ticks(window.t0, window.t1, rate, window.width, stage.px(FRAMES_APART))
+    longest = "f" + plain(max(abs(window.t0), abs(window.t1)) * rate, 0)
+    apart = max(stage.px(FRAMES_APART), stage.metrics(FRAME_SIZE).horizontalAdvance(longest) + stage.px(14))
+    frames = frame_ticks(window.t0, window.t1, rate, window.width, apart)
     painter.setFont(stage.font(FRAME_SIZE))
     painter.setPen(stage.theme.text_dim)
     labels = ["f" + plain(frame, 0) for frame in frames.tolist()]

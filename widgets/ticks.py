@@ -17,6 +17,8 @@ DECIMAL_STEPS: Final = (1.0, 2.0, 5.0, 10.0)
 DEGREE_STEPS: Final = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0, 1800.0, 3600.0)
 FRAME_STEPS: Final = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MINUS: Final = "−"
+# Characters that are still read at a glance.
+LONGEST: Final = 14
 # Logical pixels; multiples of four stay whole at the device ratios 1.25, 1.5 and 1.75.
 VALUE_WIDTH: Final = 60.0
 LABEL_GAP: Final = 14.0
@@ -126,9 +128,7 @@ def worded(numbers: Floats, step: float, fits: Callable[[str], bool]) -> tuple[t
     size = float(np.abs(numbers).max())
     if decimals <= 12 and size < 1e15:
         labels = tuple(plain(number, decimals) for number in numbers.tolist())
-        if size < 1e7 and decimals <= 6 and all(map(fits, labels)):
-            return labels, ""
-        if all(map(fits, labels)) and max(map(len, labels)) <= 10:
+        if max(map(len, labels)) <= LONGEST and all(map(fits, labels)):
             return labels, ""
     digits = max(0, ceil(log10(size / step)) if size else 0)
     powers = tuple(power(number, digits) for number in numbers.tolist())

@@ -11,14 +11,16 @@ from model.document import Document
 from widgets.colors import mix
 from widgets.theme import Theme
 
-# With more curves than this, thin hard whole lines: soft or dashed ones cost twice the ink and are lost in a thicket.
-MOST_SOFT: Final = 48
+# With more keys than this in all, hard lines: soft ones cost twice the ink and are lost in a thicket.
+MOST_SOFT_KEYS: Final = 20_000
+# With more curves than this, whole lines: dashes would make a fabric of them.
+MOST_DASHED: Final = 24
 LOCKED_DASH: Final = (3.0, 3.0)
 # A theme's dashes are in widths of a pen that would be so wide; longer dashes keep a curve a curve.
 DASH_UNIT: Final = 2.2
 DIMMED: Final = 0.28
 LOCKED_DIMMED: Final = 0.5
-FAINT: Final = 0.4
+FAINT: Final = 0.34
 
 
 class Trace(NamedTuple):
@@ -42,7 +44,8 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
     """The shown channels in the order of the clip, the active one last."""
     session = document.session
     shown = [(index, channel) for index, channel in enumerate(document.clip.channels) if session.shown(channel)]
-    soft = len(shown) <= MOST_SOFT
+    soft = sum(len(channel) for _, channel in shown) <= MOST_SOFT_KEYS
+    dashed = len(shown) <= MOST_DASHED
     active = session.active
     some_active = any(channel is active for _, channel in shown)
     colors = {index: theme.channel_color(channel, index) for index, channel in shown}
@@ -61,7 +64,7 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
                 index,
                 color,
                 mix(color, theme.background, FAINT),
-                dash if soft or channel is active else (),
+                dash if dashed or channel is active else (),
                 2.0 if channel is active else 1.0,
                 soft or channel is active,
                 channel is active,

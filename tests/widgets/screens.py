@@ -72,11 +72,6 @@ def pixels_of(image: QImage) -> Pixels:
     return np.frombuffer(image.constBits(), np.uint32).reshape(image.height(), image.bytesPerLine() // 4).copy()
 
 
-def count(pixels: Pixels, color: object) -> int:
-    """How many pixels have exactly this colour (QColor)."""
-    return int((pixels == color.rgb()).sum())  # type: ignore[attr-defined]
-
-
 def sample_clip(seed: int = 0, channels: int = 5, keys: int = 9) -> Clip:
     """Channels of every rule, every extrapolation, a lock and a lone key."""
     rng = np.random.default_rng(seed)

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainter
 
 from widgets.painting import draw_lines, hair
-from widgets.stage import Stage
+from widgets.stage import LABEL_SIZE, Stage
 from widgets.traces import Trace
 
 
@@ -36,6 +36,11 @@ def draw_grid(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: floa
                 y = np.floor(window.y_from_value(places)) + 0.5
                 low, high = np.full(len(y), window.left), np.full(len(y), window.right)
                 draw_lines(painter, np.stack((low, y, high, y), axis=1))
+    if stage.value_ticks.offset:
+        painter.setFont(stage.font(LABEL_SIZE))
+        painter.setPen(theme.ruler_text)
+        baseline = window.top + stage.px(6) + stage.metrics(LABEL_SIZE).ascent()
+        painter.drawText(QPointF(window.left + stage.px(8), baseline), stage.value_ticks.offset)
     zero = np.floor(window.y_from_value(0.0)) + 0.5
     if window.top <= zero <= window.bottom:
         painter.setPen(hair(theme.zero_line))
