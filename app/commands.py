@@ -43,8 +43,6 @@ def run(argv: Sequence[str]) -> int:
         COMMANDS[arguments.command].run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
-        # Python flushes stdout once more at exit; what is left goes nowhere instead of failing there.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return _refused("nobody reads the output any more")
     except (CommandError, FormatError) as error:
         return _refused(str(error))
@@ -52,7 +50,17 @@ def run(argv: Sequence[str]) -> int:
         return _refused(str(error) if error.strerror is None else error.strerror)
     except KeyboardInterrupt:
         return _refused("stopped")
+    finally:
+        _drop_output_left()
     return 0
+
+
+def _drop_output_left() -> None:
+    """Python flushes stdout once more at exit: what could not be printed goes nowhere instead of failing there."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _refused(sentence: str) -> int:

@@ -1,5 +1,11 @@
 """The native text format, which loses nothing: a version line, then a clause or key a line, in a fixed order.
 
+    file    = "hermite" VERSION  { "title" TEXT | "range" NUMBER NUMBER | "rate" NUMBER | channel }  "end"
+    channel = "channel" TEXT "{" { "unit" TEXT | "color" TEXT | "locked" | "extrapolate" MODE MODE | keys } "}"
+    keys    = "keys" "{" { TIME VALUE TANGENT TANGENT ["broken"] } "}"
+
+A TANGENT (in, then out) is a rule's word or a number, the slope of a fixed one. TEXT is quoted as in JSON. Range, rate,
+extrapolate and keys must be there, every clause at most once; seconds, frames per second, units per second.
 There are no comments: what a file says is in the clip or is refused, so that opening and saving never drops a word.
 """
 

@@ -65,6 +65,8 @@ def test_values_are_printed_at_a_rate_and_the_last_time_is_among_them(hermite: H
     code, out, _ = hermite("evaluate", walk, "--from", "0", "--to", "0.3", "--rate", "10", "--channel", "root.tx")
     assert code == 0
     assert [row[0] for row in table(out)] == ["time", "0.0", "0.1", "0.2", "0.3"]
+    _, out, _ = hermite("evaluate", walk, "--from", "0.1", "--to", "0.3", "--rate", "10")
+    assert [row[0] for row in table(out)] == ["time", "0.1", "0.2", "0.3"]
     _, out, _ = hermite("evaluate", walk, "--from", "1", "--to", "1", "--rate", "10")
     assert [row[0] for row in table(out)] == ["time", "1.0"]
 
@@ -190,6 +192,25 @@ def test_help_lists_the_commands() -> None:
     assert list(COMMANDS) == ["evaluate", "info", "convert", "render"]
 
 
+def printed_into(output: int, *words: object) -> tuple[int, bytes]:
+    """The code, and what is said on stderr, of a command whose output goes to *output*."""
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    command = [sys.executable, str(ROOT / "main.py"), *map(str, words)]
+    done = subprocess.run(command, stdout=output, stderr=subprocess.PIPE, check=False, env=buffered)
+    return done.returncode, done.stderr
+
+
+@pytest.mark.parametrize(
+    "words", [["info", "{walk}"], ["evaluate", "{walk}", "--rate", "100000"]], ids=["short", "long"]
+)
+def test_a_reader_that_is_not_there_is_one_sentence(walk: Path, words: list[str]) -> None:
+    read_end, write_end = os.pipe()
+    os.close(read_end)
+    said = printed_into(write_end, *(word.format(walk=walk) for word in words))
+    os.close(write_end)
+    assert said == (2, b"nobody reads the output any more\n")
+
+
 def test_a_reader_that_goes_away_is_one_sentence(walk: Path) -> None:
     command = [sys.executable, str(ROOT / "main.py"), "evaluate", str(walk), "--rate", "1000000"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -203,10 +224,10 @@ def test_a_reader_that_goes_away_is_one_sentence(walk: Path) -> None:
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
 def test_a_full_disk_behind_the_output_is_one_sentence(walk: Path) -> None:
-    command = [sys.executable, str(ROOT / "main.py"), "evaluate", str(walk)]
-    with open("/dev/full", "wb") as full:
-        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
-    assert (done.returncode, done.stderr) == (2, b"No space left on device\n")
+    full = os.open("/dev/full", os.O_WRONLY)
+    said = printed_into(full, "evaluate", walk)
+    os.close(full)
+    assert said == (2, b"No space left on device\n")
 
 
 def test_names_are_printed_as_utf_8_whatever_the_terminal_says(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 import errno
 import os
 import stat
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -51,6 +52,20 @@ def test_the_mode_is_kept(target: Path, mode: int) -> None:
     target.chmod(mode)
     save_atomic(target, NEW)
     assert stat.S_IMODE(target.stat().st_mode) == mode
+
+
+def test_nobody_else_can_read_a_private_file_while_it_is_written(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target.chmod(0o600)
+    modes = []
+    real = os.write
+
+    def write(handle: int, data: bytes) -> int:
+        modes.append(stat.S_IMODE(os.fstat(handle).st_mode))
+        return real(handle, data)
+
+    monkeypatch.setattr(os, "write", write)
+    save_atomic(target, NEW)
+    assert modes == [0o600]
 
 
 @pytest.mark.skipif(not hasattr(os, "setxattr"), reason="no extended attributes on this system")
@@ -108,11 +123,14 @@ def test_other_names_of_the_file_are_told_to_hold_the_old_version(target: Path) 
     assert target.with_name("other").read_bytes() == OLD
 
 
-def test_a_planted_temporary_name_is_never_followed(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("plant", [Path.symlink_to, Path.hardlink_to])
+def test_a_planted_temporary_name_is_never_followed(
+    target: Path, monkeypatch: pytest.MonkeyPatch, plant: Callable[[Path, Path], None]
+) -> None:
     victim = target.with_name("victim")
     victim.write_bytes(OLD)
     planted = target.with_name("planted")
-    planted.symlink_to(victim)
+    plant(planted, victim)
     monkeypatch.setattr(saving, "_temp_path", lambda _target: str(planted))
     with pytest.raises(SaveError):
         save_atomic(target, NEW)

@@ -120,6 +120,7 @@ WRONG = {
     "a colour of another kind": (("#ff8000", "red"), (8, 3), "is not of the kind '#12ab9f'"),
     "a name twice": (('"quote \\" and brace }"', '"root.tx"'), (18, 1), "a second channel is named"),
     "no extrapolation": (("  extrapolate linear bounce\n", ""), (21, 1), "expected 'extrapolate'"),
+    "a mistake behind letters of two bytes": (('"root.tx" {', '"hüfte" ['), (6, 17), "'{' of the channel"),
     "broken in front": (("    -0.5", "    broken -0.5"), (12, 5), "belongs behind a key"),
     "broken twice": (("-0.22 broken", "-0.22 broken broken"), (13, 49), "belongs behind a key"),
     "broken within": (("13.7 -0.22", "13.7 broken -0.22"), (13, 36), "belongs behind a key"),
