@@ -189,6 +189,11 @@ class Gesture:
                 covered[channel] = np.concatenate(parts)
         return covered
 
+    @property
+    def keys_fewer(self) -> int:
+        """How many keys the present preview takes away, less those that it brings."""
+        return sum(len(change.before) - len(change.after) for change in self._put if isinstance(change, Splice))
+
     def preview(self, compute: Compute, *, selection: Selecting = None, label: str | None = None) -> None:
         """Show the clip as *compute* changes it from the gesture's start, instead of the preview before.
 

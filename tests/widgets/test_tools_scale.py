@@ -236,7 +236,7 @@ def test_every_tool_of_the_table_can_be_chosen_and_says_what_it_does(desk: Desk)
         desk.session.tool = name
         assert desk.view.router.tool is desk.view.router.tool
         desk.hand.move(desk.spot(desk.low, 2))
-        assert desk.hints[-1].startswith("Drag: ")
+        assert "Drag: " in desk.hints[-1]
         assert row.label
         assert row.tip
         assert row.shortcut

@@ -16,6 +16,7 @@ from widgets.tools.base import Cursor, Drag, Modifier, Point, Tool
 from widgets.tools.box_select import BoxSelect
 from widgets.tools.insert_key import InsertKey, insert_key, insert_time
 from widgets.tools.move_keys import MoveKeys
+from widgets.tools.steering import place_text
 from widgets.tools.turn_handle import TurnHandle
 
 # Clicks no further apart than this are at the same spot, and cycle through what overlaps there; pixels.
@@ -88,7 +89,10 @@ class SelectTool(Tool):
         super().drag(point)
 
     def drag_from(self, start: Point) -> Drag:
-        """Keys and spans are moved, handles turned; empty ground, and what is locked, begins a box."""
+        """Keys, and spans of the active curve, are moved, handles turned; everything else begins a box.
+
+        A dense clip has a curve under nearly every pixel: only the one that was chosen before is taken by its line.
+        """
         found, channel = self.grabbed, self.grabbed.channel
         if channel is not None and not channel.locked:
             if found.kind == "key":
@@ -97,7 +101,7 @@ class SelectTool(Tool):
                 return TurnHandle(self.graph, start, channel, found.id, "in" if found.kind == "handle_in" else "out")
             if found.kind == "curve" and start.ctrl:
                 return InsertKey(self.graph, channel)
-            if found.kind == "curve" and (span := self._span(channel, found.time)):
+            if found.kind == "curve" and channel is self.before[1] and (span := self._span(channel, found.time)):
                 return MoveKeys(self.graph, start, self._take_span(start, channel, span))
         return BoxSelect(self.graph, start, self.before[0])
 
@@ -252,13 +256,14 @@ class SelectTool(Tool):
                 return "Click: select the keys of all shown channels at this time · Shift: add them"
             if shift:
                 return f"Click: {'take out of' if selected else 'add to'} the selection · Drag: move along one axis"
-            return f"Drag: move {counted(count, 'key')} · Shift+click: toggle · Alt+click: column · Ctrl: no snap"
+            return f"{place_text(hit)} · Drag: move {counted(count, 'key')} · Shift+click: toggle · Alt+click: column"
         if hit.is_handle:
             return "Drag: turn the tangent · Shift: flat, chord or as it was · Alt: fine"
         if hit.kind == "curve" and hit.channel is not None:
             if ctrl:
                 return f"Click: insert a key on {hit.channel.name}, the curve keeps its shape"
-            return "Click: make active · Double-click: select all keys · Drag: move the span · Ctrl+click: insert a key"
+            drag = "move the span" if hit.channel is self.session.active else "box · Click: make active"
+            return f"{place_text(hit)} · Drag: {drag} · Double-click: all its keys · Ctrl+click: insert a key"
         if ctrl:
             return "Drag: take out of the selection"
         return "Drag: add to the selection" if shift else "Drag: select with a box · Middle drag: pan · Wheel: zoom"

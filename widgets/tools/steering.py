@@ -3,7 +3,10 @@
 from math import degrees
 
 from model.channel import Channel
+from model.labels import short_name
 from widgets.graph import Graph
+from widgets.hit_test import Hit
+from widgets.numbers import factor_of, suffix_of
 from widgets.tools.base import Point
 
 FINE_SPEED = 0.1
@@ -63,6 +66,14 @@ def value_text(channel: Channel | None, d_value: float) -> str:
         return f"{_signed(degrees(d_value))}°"
     unit = f" {channel.unit}" if channel is not None and channel.unit else ""
     return f"{_signed(d_value)}{unit}"
+
+
+def place_text(hit: Hit) -> str:
+    """What is under the pointer, as "root.tx at 1.083 s: 0.4 m"."""
+    channel = hit.channel
+    assert channel is not None
+    value = hit.value * factor_of(channel.unit)
+    return f"{short_name(channel)} at {hit.time:.4g} s: {value:.4g}{suffix_of(channel.unit)}"
 
 
 def slope_text(channel: Channel, slope: float) -> str:
