@@ -72,7 +72,7 @@ class Rows:
         self.times = self.numbers[TIME]
         self.first = np.zeros(rows + 1, np.int64)  # rank of each row's first key, and at the end the number of keys
         self.starts = [0.0] * rows  # time of each row's first key
-        self.dirty = set(range(rows))  # rows whose keys changed since somebody cleared this set
+        self.dirty = set(range(rows))  # rows whose coefficients were written since somebody cleared this set
 
     # --- places
 
@@ -217,7 +217,6 @@ class Rows:
             self._repeat_last(row, row + rows, place + count, held)
             if place == 0:
                 self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
-            self.dirty.update(range(row, row + rows))
 
     def _repeat_last(self, row0: int, row1: int, written: int, held: int) -> None:
         """Fill the spare slots of rows that hold *held* keys, the first *written* of which may be new."""
@@ -291,7 +290,6 @@ class Rows:
                 self.starts[row] = float(self.number_grid[TIME, row, 0])
         elif come == 0:
             self._repeat_last(row, row + 1, new_held, new_held)
-        self.dirty.add(row)
 
     def _share_out(self, rank0: int, rank1: int, run: Run) -> tuple[int, int]:
         """Replace, and fill as many rows around as it takes evenly; make new rows if they are too full or too empty."""
