@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from PySide6.QtCore import QRect, QRectF, Qt, QTimer
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
+from shiboken6 import isValid
 
 from model.channel import Channel
 from model.document import Document
@@ -76,7 +77,8 @@ class Canvas(QGraphicsItem):
         """Stop listening: the view is gone, and the document and the theme may live on."""
         for event, slot in self._heard:
             event.disconnect(slot)
-        self._theme.theme_changed.disconnect(self.restyle)
+        if isValid(self._theme):  # at the end of the program it may be gone first
+            self._theme.theme_changed.disconnect(self.restyle)
 
     # --- Qt
 
