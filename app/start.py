@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, QSocketNotifier, QTimer
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSocketNotifier, QTimer
 from PySide6.QtWidgets import QApplication, QWidget
 
 from app.main_window import MainWindow, make_application
@@ -42,7 +42,9 @@ def start(path: str | None, skel: str | None, first_picture: FirstPicture | None
         closer.end()
         if window.ready:
             window.cancel_gesture()
-        window.hide()  # ended without being closed; what is visible must not be torn down with Python half gone
+        # Torn down now, while all of Python is there, and not bit by bit when the process ends.
+        window.deleteLater()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         return code
     finally:
         reports.uninstall()
