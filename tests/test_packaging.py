@@ -1,5 +1,6 @@
 """The wheel: one package and one command, started from an environment that has never seen this checkout."""
 
+import importlib.util
 import os
 import subprocess
 import sys
@@ -43,12 +44,15 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, set[str]]:
     """A clean environment with the wheel in it: its folder of programs, and what the wheel added to site-packages."""
     place = tmp_path_factory.mktemp("clean")
-    done(sys.executable, "-m", "venv", place, cwd=place)
+    # An environment that uv made has no pip to lend; making one takes seconds.
+    lent = importlib.util.find_spec("pip") is not None
+    done(sys.executable, "-m", "venv", *(["--without-pip"] if lent else []), place, cwd=place)
     programs = place / ("Scripts" if os.name == "nt" else "bin")
     python = programs / "python"
     site = Path(done(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=place).strip())
     before = {path.name for path in site.iterdir()}
-    done(python, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", wheel, cwd=place)
+    pip = [sys.executable, "-m", "pip", "--python", python] if lent else [python, "-m", "pip"]
+    done(*pip, "install", "--quiet", "--no-index", "--no-deps", wheel, cwd=place)
     added = {path.name for path in site.iterdir()} - before
     # Qt and numpy are borrowed from the environment of the tests: they are 150 MB, and a test needs no network.
     lenders = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}

@@ -231,7 +231,8 @@ def test_an_old_python_asked_for_by_name_is_refused(checkout: Path) -> None:
 @SCRIPTS_ONLY
 def test_a_shim_that_refuses_is_passed_over_and_a_half_made_venv_made_anew(checkout: Path) -> None:
     program(checkout / "bin" / "python3.13", "echo 'pyenv: python3.13: command not found' >&2; exit 127")
-    program(checkout / ".pyenv" / "versions" / "3.12.9" / "bin" / "python", f'exec "{sys.executable}" "$@"')
+    makes = 'case "$*" in "-m venv "*) mkdir -p "$3/bin"; ln -s "$0" "$3/bin/python"; exit;; esac'
+    program(checkout / ".pyenv" / "versions" / "3.12.9" / "bin" / "python", f'{makes}; exec "{sys.executable}" "$@"')
     (checkout / ".venv").mkdir()
     (checkout / ".venv" / ".making").write_text("999999999", encoding="ascii")
     (checkout / ".venv" / "half").touch()
