@@ -147,7 +147,7 @@ class KeyWriter:
 
     def texts(self, runs: Sequence[Run]) -> list[bytes]:
         """The lines of each run; all runs are worked on together, since there may be many short ones."""
-        keys = np.concatenate(runs) if runs else np.zeros(0, KEY_DTYPE)
+        keys = runs[0] if len(runs) == 1 else np.concatenate([np.zeros(0, KEY_DTYPE), *runs])
         text = b"".join([self._lines(keys[i : i + _LINES]) for i in range(0, len(keys), _LINES)])
         ends = np.flatnonzero(np.frombuffer(text, np.uint8) == ord("\n")) + 1
         cuts = np.concatenate([[0], ends])[np.cumsum([0, *map(len, runs)])].tolist()

@@ -3,6 +3,7 @@
 import errno
 import os
 import stat
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -153,6 +154,15 @@ def test_what_is_no_place_for_a_file_is_refused_in_one_sentence(tmp_path: Path) 
             save_atomic(path, NEW)
         assert "\n" not in str(caught.value)
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["loop", "pipe"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are bytes on Linux only")
+def test_a_name_that_is_no_text_is_saved_and_read(tmp_path: Path) -> None:
+    path = tmp_path / os.fsdecode(b"w\xffalk.anim")
+    save_clip(FULL, path)
+    save_clip(Clip(end=3), path)
+    assert read_clip(path).end == 3
+    assert others(path) == []
 
 
 def test_a_name_as_long_as_names_can_be_is_saved(tmp_path: Path) -> None:
