@@ -139,6 +139,17 @@ def test_what_is_kept_for_speed_never_outlives_an_edit() -> None:
         assert bits(channel.envelope(edges)) == bits(fresh.envelope(edges))
 
 
+@pytest.mark.parametrize("n", [5, 10_000])
+def test_the_same_time_asked_again_after_an_edit_has_the_new_value(n: int) -> None:
+    channel = Channel("x", make_run(np.arange(float(n)), 0.0))
+    assert channel.value(2.0) == 0.0
+    run = channel.run()[2:3]
+    after = run.copy()
+    after["value"] = 7.0
+    channel.splice(run, after)
+    assert channel.value(2.0) == 7.0
+
+
 def test_spans_are_kept_only_for_short_channels() -> None:
     channel = Channel("x", random_run(3, 3 * curve._KEPT_SPANS))
     for time in np.linspace(0.0, channel.run()["time"][-1], 500).tolist():
