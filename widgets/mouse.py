@@ -13,6 +13,7 @@ from PySide6.QtGui import (
     QSinglePointEvent,
     QWheelEvent,
 )
+from shiboken6 import isValid
 
 from widgets.graph import Graph
 from widgets.guard import guarded
@@ -72,6 +73,9 @@ class MouseRouter(QObject):
 
     def forget(self) -> None:
         """Stop listening to the document: the view is gone, and the document may live on."""
+        for timer in (self._later, self._calm, self._edge):
+            if isValid(timer):
+                timer.stop()
         document, session = self.graph.document, self.graph.document.session
         session.option_changed.disconnect(self._option_changed)
         session.selection_changed.disconnect(self._stale)
@@ -102,7 +106,7 @@ class MouseRouter(QObject):
     def handle(self, event: QEvent) -> bool:
         """Take one raw event; True if the view is to do nothing more with it."""
         method = self._HANDLERS.get(event.type())
-        if method is None:
+        if method is None or not isValid(self):  # the program may end with a view still shown
             return False
         try:
             return method(self, event)
