@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu
 
-from app.settings import LAYOUT_VERSION, Settings
+from app.settings import Settings
 from widgets.guard import guarded
 from widgets.theme import Theme
 
@@ -172,9 +172,9 @@ class MainWindow(QMainWindow):
 
     def reset_layout(self) -> None:
         """Put panels and toolbar where they were at first."""
-        from app.workbench import FIRST_LAYOUT_NAME
+        from app.workbench import first_layout
 
-        self.restoreState(self.property(FIRST_LAYOUT_NAME), LAYOUT_VERSION)
+        first_layout(self)
 
     # --- what Qt asks of the window
 

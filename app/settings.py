@@ -32,6 +32,8 @@ class Settings:
 
     geometry = _Remembered("window/geometry", QByteArray())
     layout = _Remembered("window/layout", QByteArray())
+    channels_width = _Remembered("window/channels_width", 0)
+    inspector_width = _Remembered("window/inspector_width", 0)
     appearance = _Remembered("window/appearance", "system")
     last_folder = _Remembered("files/last_folder", "")
     snap = _Remembered("editing/snap", True)

@@ -1,9 +1,10 @@
 """What the window consists of, and who listens to whom."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QDockWidget, QLineEdit, QUndoView, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QComboBox, QDockWidget, QLineEdit, QToolBar, QUndoView, QVBoxLayout, QWidget
 
 from app.clip_file import Opened
 from app.context_menu import ContextMenu
@@ -32,8 +33,6 @@ from widgets.value_field import ValueField
 if TYPE_CHECKING:
     from app.main_window import MainWindow
 
-# The layout before the user moved anything is kept in the window under this name.
-FIRST_LAYOUT_NAME = "first_layout"
 # Buttons of the transport and the actions that do the same.
 TRANSPORT_ACTIONS = {
     "to_start": "play.start",
@@ -86,6 +85,7 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
     window.view.frame_all()
     _hand_keyboard_back(window)
     window.view.setFocus()
+    QTimer.singleShot(0, window, partial(_settle, window))
 
 
 def _hand_keyboard_back(window: "MainWindow") -> None:
@@ -125,9 +125,7 @@ def _make_parts(window: "MainWindow") -> None:
         "history": _dock(window, "history", "Undo History", history, right),
     }
     window.docks["history"].hide()
-    panels = [window.docks["channels"], window.docks["inspector"]]
-    widths = [max(CHANNELS_WIDTH, window.tree.minimumSizeHint().width()), INSPECTOR_WIDTH]
-    window.resizeDocks(panels, widths, Qt.Orientation.Horizontal)
+    _place_panels(window)
     bar = window.statusBar()
     bar.setSizeGripEnabled(False)
     window.setMinimumSize(window.transport.minimumSizeHint().width() + 12, LEAST_HEIGHT)
@@ -142,9 +140,46 @@ def _dock(window: "MainWindow", name: str, title: str, widget: QWidget, area: Qt
     return dock
 
 
+def first_layout(window: "MainWindow") -> None:
+    """Put panels and toolbar where they are before the user moves anything, in their first widths."""
+    window.settings.channels_width = window.settings.inspector_width = 0
+    _place_panels(window)
+    _give_widths(window)
+
+
+def _place_panels(window: "MainWindow") -> None:
+    left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+    for name, area in (("channels", left), ("inspector", right), ("history", right)):
+        dock = window.docks[name]
+        dock.setFloating(False)
+        window.addDockWidget(area, dock)
+        dock.setVisible(name != "history")
+    for bar in window.findChildren(QToolBar):
+        window.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
+        bar.show()
+
+
 def _restore_layout(window: "MainWindow") -> None:
-    window.setProperty(FIRST_LAYOUT_NAME, window.saveState(LAYOUT_VERSION))
-    window.restoreState(window.settings.layout, LAYOUT_VERSION)
+    """Put panels and toolbar where they were; their widths are kept apart, for a state holds shares of a layout."""
+    if window.restoreState(window.settings.layout, LAYOUT_VERSION):
+        _give_widths(window)
+
+
+def _settle(window: "MainWindow") -> None:
+    """What only holds once the parts are on the screen: a frame that was shown empty gives the panels all its room,
+    and what is not shown yet loses the focus to the first field that is.
+    """
+    _give_widths(window)
+    window.focus_graph()
+
+
+def _give_widths(window: "MainWindow") -> None:
+    """Make the panels as wide as they were left."""
+    settings = window.settings
+    panels = [window.docks["channels"], window.docks["inspector"]]
+    widths = [settings.channels_width or CHANNELS_WIDTH, settings.inspector_width or INSPECTOR_WIDTH]
+    widths[0] = max(widths[0], window.tree.minimumSizeHint().width())
+    window.resizeDocks(panels, widths, Qt.Orientation.Horizontal)
 
 
 def keep_state(window: "MainWindow") -> None:
@@ -152,6 +187,10 @@ def keep_state(window: "MainWindow") -> None:
     settings = window.settings
     settings.geometry = window.saveGeometry()
     settings.layout = window.saveState(LAYOUT_VERSION)
+    for name in ("channels", "inspector"):
+        dock = window.docks[name]
+        if dock.isVisible() and not dock.isFloating():
+            setattr(settings, f"{name}_width", dock.width())
     for name in ("snap", "reorder", "loop"):
         setattr(settings, name, getattr(window.session, name))
     settings.sync()
