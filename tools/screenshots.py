@@ -13,6 +13,7 @@ from typing import NamedTuple
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")
 
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 
@@ -36,9 +37,28 @@ def select_keys(window: MainWindow, name: str, first: int, last: int) -> None:
 
 
 def a_ball(window: MainWindow) -> None:
-    """Two bounces of the ball selected, the playhead between them."""
-    select_keys(window, "ball.ty", 1, 3)
-    window.session.playhead = 1.62
+    """One bounce of the ball pulled up with the mouse, and a handle of it in the hand."""
+    view, channel = window.view, window.document.clip.channel("ball.ty")
+    select_keys(window, "ball.ty", 2, 2)
+    window.session.playhead = 2.2
+    QTest.qWait(300)
+    key = list(channel)[2]
+    start = QPoint(round(view.x_from_time(key.time)), round(view.y_from_value(key.value)))
+    drag(window, start, QPoint(26, -52))
+    QTest.mouseRelease(view.viewport(), Qt.MouseButton.LeftButton, pos=start + QPoint(26, -52))
+    handle = view.handle_points(channel, key.id)[1]
+    assert handle is not None
+    drag(window, QPoint(round(handle[0]), round(handle[1])), QPoint(10, 34))
+
+
+def drag(window: MainWindow, start: QPoint, way: QPoint) -> None:
+    """Press at *start* and go *way* with the left button held."""
+    viewport = window.view.viewport()
+    QTest.mouseMove(viewport, start)
+    QTest.mousePress(viewport, Qt.MouseButton.LeftButton, pos=start)
+    for part in range(1, 11):
+        QTest.mouseMove(viewport, start + way * part / 10)
+        QTest.qWait(5)
 
 
 def rules_side_by_side(window: MainWindow) -> None:
@@ -76,6 +96,8 @@ def take(picture: Picture, folder: Path) -> Path:
         picture.prepare(window)
         QTest.qWait(300)
         image = window.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+        window.cancel_gesture()
+        window.undo_stack.setClean()
         window.close()
         window.deleteLater()
         QTest.qWait(0)
