@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from model.channel import Channel
+from model.hermite import LARGEST
 
 
 class Clip:
@@ -51,12 +52,12 @@ class Clip:
         return {channel.name: channel.value(time) for channel in self.channels}
 
     def frame_of(self, time: float) -> float:
-        """The frame, counted from the time 0, whole or not, at *time*."""
-        return time * self.frame_rate
+        """The frame, counted from the time 0, whole or not, at *time*; finite for every finite time."""
+        return min(max(time * self.frame_rate, -LARGEST), LARGEST)
 
     def time_of(self, frame: float) -> float:
-        """The time of *frame* in seconds."""
-        return frame / self.frame_rate
+        """The time of *frame* in seconds; finite for every finite frame."""
+        return min(max(frame / self.frame_rate, -LARGEST), LARGEST)
 
     def check(self) -> None:
         """Assert that names are unique and that every channel is sound."""

@@ -31,6 +31,8 @@ def steady(number: float) -> str:
 
 def frame_text(frame: float) -> str:
     """A frame, with two decimals only where it is not whole."""
+    if abs(frame) >= 1e15:
+        return f"{frame:.6g}"
     whole = round(frame)
     return str(whole) if abs(frame - whole) < 5e-4 else f"{frame:.2f}"
 

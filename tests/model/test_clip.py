@@ -44,3 +44,10 @@ def test_check_refuses_two_channels_of_one_name() -> None:
     Clip([Channel("a"), Channel("b")]).check()
     with pytest.raises(AssertionError, match="same name"):
         Clip([Channel("a"), Channel("a")]).check()
+
+
+def test_frames_and_times_are_finite_however_far_away() -> None:
+    clip = Clip(frame_rate=1e300)
+    assert clip.frame_of(1e308) == 1.7976931348623157e308
+    clip.frame_rate = 1e-300
+    assert clip.time_of(-1e308) == -1.7976931348623157e308

@@ -61,6 +61,11 @@ def test_frames_have_decimals_only_where_they_are_not_whole(frame, text):
     assert frame_text(frame) == text
 
 
+def test_a_frame_too_far_to_count_is_still_shown():
+    assert frame_text(1.7976931348623157e308) == "1.79769e+308"
+    assert frame_text(-4e15) == "-4e+15"
+
+
 def test_angles_are_degrees_and_other_units_stand_behind_the_number():
     assert factor_of("angle") * math.pi == 180.0
     assert (factor_of("m"), suffix_of("m"), suffix_of("angle"), suffix_of("")) == (1.0, " m", "°", "")
