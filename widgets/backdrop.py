@@ -29,6 +29,7 @@ class Look(NamedTuple):
     """Everything but the window that the backdrop's pixels depend on."""
 
     theme: str
+    degrees: bool
     start: float
     end: float
     traces: tuple[Trace, ...]
@@ -39,7 +40,7 @@ class Look(NamedTuple):
         """What the stage asks for now."""
         clip = stage.document.clip
         revisions = tuple([trace.channel.revision for trace in stage.resting])
-        return cls(stage.theme.name, clip.start, clip.end, stage.resting, revisions)
+        return cls(stage.theme.name, stage.degrees, clip.start, clip.end, stage.resting, revisions)
 
 
 class Picture:

@@ -20,7 +20,8 @@ from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
 from widgets.layers.handles import KNOB, LENGTH
 from widgets.layers.labels import hint_of, labels_of
-from widgets.stage import LABEL_SIZE, Overlay, Stage, in_degrees, pixel_size
+from widgets.numbers import is_angle
+from widgets.stage import LABEL_SIZE, Overlay, Stage, pixel_size, unit_of
 from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
 from widgets.traces import Trace, live_channels, traces_of
@@ -146,7 +147,7 @@ class Canvas(QGraphicsItem):
                 tuple(trace for trace in every if trace.channel in live),
             )
         font = self._view.font()
-        degrees = in_degrees((*self._traces[0], *self._traces[1]))
+        degrees = is_angle(unit_of((*self._traces[0], *self._traces[1])))
         if self._ticks is None or self._ticks[:2] != (window, degrees):
             measuring = QFont(font)
             measuring.setPixelSize(max(round(pixel_size(font) * LABEL_SIZE * window.unit), 1))

@@ -18,7 +18,6 @@ BAND_HEIGHT: Final = 5.0
 HEAD_HALF: Final = 6.0
 FRAME_SIZE: Final = 0.78
 FRAMES_APART: Final = 44.0
-FRAME_WIDTH: Final = 6.0
 # How far from the playhead its head may reach, or the numbers that make room for it.
 HEAD_REACH: Final = 110.0
 
@@ -44,7 +43,7 @@ def draw_value_ruler(painter: QPainter, stage: Stage) -> None:
 
 
 def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
-    """Seconds, below them the frame numbers where frames are far enough apart, and the band of the clip's range."""
+    """Seconds, below them the frame numbers, and the band of the clip's range; in the corner the units of both axes."""
     window, theme = stage.window, stage.theme
     height = window.top
     painter.fillRect(QRectF(0, 0, window.right, height), theme.ruler)
@@ -69,18 +68,19 @@ def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
     painter.drawLine(QPointF(0, height - 0.5), QPointF(window.right, height - 0.5))
     painter.setPen(theme.text_dim)
     painter.setFont(stage.font(FRAME_SIZE))
-    painter.drawText(
-        QRectF(0, 0, window.left - stage.px(7), stage.px(18)),
-        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter,
-        "s",
-    )
+    unit = "°" if stage.degrees else stage.unit
+    room = window.left - stage.px(14)
+    for text, top in (
+        ("s", 0.0),
+        (stage.metrics(FRAME_SIZE).elidedText(unit, Qt.TextElideMode.ElideRight, room), 20.0),
+    ):
+        box = QRectF(0, stage.px(top), window.left - stage.px(7), stage.px(18))
+        painter.drawText(box, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, text)
 
 
 def _draw_frames(painter: QPainter, stage: Stage) -> None:
-    """Numbers of frames, where these are not too narrow to tell apart."""
+    """Numbers of frames: each, or every second, fifth, tenth one, so that they have room at every zoom."""
     window, rate = stage.window, stage.document.clip.frame_rate
-    if window.px_per_second / rate < stage.px(FRAME_WIDTH):
-        return
     longest = "f" + plain(max(abs(window.t0), abs(window.t1)) * rate, 0)
     apart = max(stage.px(FRAMES_APART), stage.metrics(FRAME_SIZE).horizontalAdvance(longest) + stage.px(14))
     frames = frame_ticks(window.t0, window.t1, rate, window.width, apart)

@@ -15,6 +15,7 @@ from model.sampling import Window
 from model.selection import Ids, Selection
 from widgets.graph import Frame
 from widgets.hit_test import Hit
+from widgets.numbers import is_angle
 from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
 from widgets.traces import Trace
@@ -57,11 +58,14 @@ class Stage:
     base_font: QFont
     labels: tuple[Label, ...] = ()
     hint: str = ""
+    # That of the value ruler.
+    unit: str = field(init=False)
     _fonts: dict[float, QFont] = field(default_factory=dict)
     _by_channel: dict[Channel, Trace] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._by_channel = {trace.channel: trace for trace in (*self.resting, *self.live)}
+        self.unit = unit_of(tuple(self._by_channel.values()))
 
     def trace_of(self, channel: Channel) -> Trace | None:
         """How the channel is drawn; None if it is not shown."""
@@ -84,8 +88,8 @@ class Stage:
 
     @property
     def degrees(self) -> bool:
-        """Whether values are read in degrees: every shown channel is an angle."""
-        return in_degrees((*self.resting, *self.live))
+        """Whether values are read in degrees, where radians are stored."""
+        return is_angle(self.unit)
 
     @property
     def selection(self) -> Selection:
@@ -118,9 +122,10 @@ class Stage:
         return point * self.window.unit
 
 
-def in_degrees(traces: Sequence[Trace]) -> bool:
-    """Whether these are angles, all of them: they are stored in radians and read in degrees."""
-    return bool(traces) and all(trace.channel.unit == "angle" for trace in traces)
+def unit_of(traces: Sequence[Trace]) -> str:
+    """The unit of the active channel; without one, the unit that all of these share, else none."""
+    units = {trace.channel.unit for trace in traces if trace.active} or {trace.channel.unit for trace in traces}
+    return units.pop() if len(units) == 1 else ""
 
 
 def pixel_size(font: QFont) -> float:

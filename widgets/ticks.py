@@ -15,7 +15,6 @@ type Floats = NDArray[np.float64]
 DECIMAL_STEPS: Final = (1.0, 2.0, 5.0, 10.0)
 # Full turns and their usual parts, before degrees go on in decimal steps.
 DEGREE_STEPS: Final = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0, 1800.0, 3600.0)
-FRAME_STEPS: Final = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MINUS: Final = "−"
 # Characters that are still read at a glance.
 LONGEST: Final = 14
@@ -96,9 +95,9 @@ def time_ticks(low: float, high: float, length: float, gap: float, width: Callab
 def frame_ticks(low: float, high: float, rate: float, length: float, apart: float) -> NDArray[np.int64]:
     """The frames to number between two times in seconds, at least *apart* pixels from each other."""
     per_frame = length / (high - low) / rate
-    step = next((step for step in FRAME_STEPS if step * per_frame >= apart), None)
-    if step is None or not isfinite(rate) or max(abs(low), abs(high)) * rate > 1e15:
+    if not isfinite(rate) or max(abs(low), abs(high)) * rate > 1e15:
         return np.empty(0, np.int64)
+    step = max(decimal_step(apart / per_frame), 1.0)
     return np.rint(multiples(low * rate, high * rate, step)).astype(np.int64)
 
 

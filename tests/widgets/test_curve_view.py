@@ -288,3 +288,30 @@ def test_a_view_that_is_gone_hears_nothing(qtbot: QtBot) -> None:
     QApplication.sendPostedEvents(None, 52)  # deferred deletions
     document.session.playhead = 2.0
     document.do("Move", lambda clip: edits.move(clip, Selection.of_all(clip.channels), 0.1, 0.1))
+
+
+@pytest.mark.parametrize(("active", "unit", "label"), [(0, "m", "2"), (1, "angle", "90°"), (None, "", "2")])
+def test_the_value_ruler_is_in_the_unit_of_the_active_channel(
+    qtbot: QtBot, active: int | None, unit: str, label: str
+) -> None:
+    run = make_run([0.0, 1.0], [-3.0, 3.0])
+    view = view_of(Clip([Channel("hip.tx", run, unit="m"), Channel("hip.rx", run, unit="angle")]))
+    qtbot.addWidget(view)
+    screen = Screen(view)
+    before = screen.shown()
+    view.document.session.active = None if active is None else view.document.clip.channels[active]
+    assert active is None or (screen.shown() != before).any()
+    assert (screen.shown() == screen.painted_anew()).all()
+    stage = view.canvas.stage(1.0)
+    assert stage.unit == unit
+    assert label in stage.value_ticks.labels
+
+
+def test_a_new_unit_is_at_once_that_of_ruler_and_grid(qtbot: QtBot) -> None:
+    view = view_of(Clip([Channel("hip.rx", make_run([0.0, 1.0], [-3.0, 3.0]))]))
+    qtbot.addWidget(view)
+    screen = Screen(view)
+    screen.shown()
+    view.document.do("Unit", lambda clip: edits.set_setting(clip, clip.channels, "unit", "angle"))
+    assert (screen.shown() == screen.painted_anew()).all()
+    assert "90°" in view.canvas.stage(1.0).value_ticks.labels

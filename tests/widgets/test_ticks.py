@@ -66,10 +66,15 @@ def test_degrees_are_told_in_parts_of_a_turn() -> None:
 
 def test_frames_are_numbered_where_they_have_room() -> None:
     assert frame_ticks(0.0, 1.0, 24.0, 1540, 44).tolist() == list(range(25))
-    assert frame_ticks(0.0, 10.0, 24.0, 1540, 44)[:3].tolist() == [0, 5, 10] or frame_ticks(0.0, 10.0, 24.0, 1540, 44)[
-        :3
-    ].tolist() == [0, 10, 20]
-    assert len(frame_ticks(0.0, 1e9, 24.0, 1540, 44)) == 0
+    assert frame_ticks(0.0, 10.0, 24.0, 1540, 44)[:3].tolist() == [0, 10, 20]
+
+
+@given(st.floats(-1e6, 1e6), st.floats(-1, 9), st.sampled_from([24.0, 29.97, 30.0, 60.0]))
+def test_frames_are_numbered_at_every_zoom_that_shows_two_of_them(center: float, power: float, rate: float) -> None:
+    low, high = limited(center, 10.0**power)
+    frames = frame_ticks(low, high, rate, 1540, 90)
+    assert len(frames) >= min(2, int((high - low) * rate))
+    assert (np.diff(frames) * 1540 / (high - low) / rate >= 89.9).all()
 
 
 def test_minus_is_a_minus_and_zero_has_none() -> None:
