@@ -38,11 +38,12 @@ class Session:
 
     @property
     def selection(self) -> Selection:
-        """The selected keys."""
+        """The selected keys; those of channels that are not shown drop out, so that no command touches them unseen."""
         return self._selection
 
     @selection.setter
     def selection(self, selection: Selection) -> None:
+        selection = self._seen(selection)
         if selection != self._selection:
             self._selection = selection
             self.selection_changed.emit()
@@ -94,7 +95,15 @@ class Session:
     def _show(self, hidden: frozenset[Channel], solo: frozenset[Channel]) -> None:
         if (hidden, solo) != (self._hidden, self._solo):
             self._hidden, self._solo = hidden, solo
+            before, self._selection = self._selection, self._seen(self._selection)
+            if self._selection is not before:
+                self.selection_changed.emit()
             self.visibility_changed.emit()
+
+    def _seen(self, selection: Selection) -> Selection:
+        """*selection* without the keys of channels that are not shown; the same one if all are."""
+        shown = [channel for channel in selection.channels if self.shown(channel)]
+        return selection if len(shown) == len(selection.channels) else selection.with_only(shown)
 
     def shown(self, channel: Channel) -> bool:
         """Whether the graph draws *channel*."""
@@ -190,10 +199,10 @@ class Session:
         before = (self._selection, self._active, self._hidden, self._solo)
         if any(channel not in alive for channel in selection.channels):
             selection = selection.with_only(alive)
-        self._selection = selection
         self._active = active if active in alive else None
         self._hidden &= alive
         self._solo &= alive
+        self._selection = self._seen(selection)
         if self._selection != before[0]:
             self.selection_changed.emit()
         if self._active is not before[1]:

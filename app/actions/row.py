@@ -57,5 +57,8 @@ A_CHANNEL = Need(lambda w: bool(w.document.clip.channels), "the clip has no chan
 KEYS = Need(lambda w: w.document.clip.key_count > 0, "the clip has no keys")
 SELECTED_KEYS = Need(lambda w: bool(w.session.selection), "no keys are selected")
 AN_ACTIVE_CHANNEL = Need(lambda w: w.session.active is not None, "no channel is active")
+ACTIVE_IS_SHOWN = Need(
+    lambda w: w.session.active is not None and w.session.shown(w.session.active), "the active channel is not shown"
+)
 EDITABLE_CHANNELS = Need(lambda w: bool(editable_channels(w)), "no channel is shown and unlocked")
 SHOWN_CHANNELS = Need(lambda w: bool(w.session.shown_channels(w.document.clip)), "no channel is shown")

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QKeySequence
 
-from app.actions.row import AN_ACTIVE_CHANNEL, KEYS, SELECTED_KEYS, Action, editable_channels
+from app.actions.row import ACTIVE_IS_SHOWN, AN_ACTIVE_CHANNEL, KEYS, SELECTED_KEYS, Action, editable_channels
 from model.selection import Selection
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ SELECT_ACTIONS = (
         function=_select_channel,
         shortcuts=("Ctrl+L",),
         tip="Select every key of the active channel",
-        needs=(AN_ACTIVE_CHANNEL,),
+        needs=(AN_ACTIVE_CHANNEL, ACTIVE_IS_SHOWN),
         begins_group=True,
     ),
     Action(

@@ -155,6 +155,18 @@ def undo_all(window: MainWindow) -> None:
     window.document.clip.check()
 
 
+def test_no_command_touches_keys_that_are_not_shown(window: MainWindow) -> None:
+    walk, turn, _ = window.document.clip.channels
+    window.actions_by_id["edit.select_all"].run()
+    window.session.solo = {turn}
+    assert window.session.selection.channels == (turn,)
+    window.actions_by_id["edit.delete"].run()
+    assert (len(walk), len(turn)) == (4, 0)
+    window.session.active = walk
+    window.actions_by_id["edit.select_channel"].run()
+    assert window.status.message.text().endswith("the active channel is not shown")
+
+
 def test_what_cannot_run_is_disabled_and_says_why(window: MainWindow) -> None:
     delete = window.actions_by_id["edit.delete"]
     assert not delete.isEnabled()

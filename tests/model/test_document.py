@@ -159,6 +159,18 @@ def test_undoing_a_deletion_selects_the_keys_again() -> None:
     assert document.session.selection == select(channel, 2)
 
 
+def test_undo_selects_only_keys_that_are_shown() -> None:
+    channel, other = channel_of([0.0, 1.0]), channel_of([0.0, 1.0], "root.ty")
+    document = document_of(channel, other)
+    document.session.selection = both = select(channel, 2).union(select(other, 2))
+    edit = document.do("Delete", lambda clip: edits.delete(clip, both))
+    assert edit is not None
+    document.session.solo = {other}
+    document.apply(edit.inverse())
+    assert len(channel) == 2
+    assert document.session.selection == select(other, 2)
+
+
 def test_undo_brings_back_the_active_channel() -> None:
     channel, other = channel_of([0.0]), channel_of([0.0], "root.ty")
     document = document_of(channel, other)
@@ -171,19 +183,18 @@ def test_undo_brings_back_the_active_channel() -> None:
 
 
 def test_removing_a_channel_takes_it_out_of_the_session() -> None:
-    channel, other = channel_of([0.0, 1.0]), channel_of([0.0], "root.ty")
-    document = document_of(channel, other)
+    channel, other, unseen = (channel_of([0.0, 1.0], name) for name in ("root.tx", "root.ty", "root.tz"))
+    document = document_of(channel, other, unseen)
     session = document.session
     session.selection = select(channel, 1).union(select(other, 1))
-    session.solo, session.hidden = {channel}, {channel, other}
-    edit = document.do("Remove", lambda clip: [Membership((channel, other), (other,))])
+    session.hidden = {unseen}
+    edit = document.do("Remove", lambda clip: [Membership((channel, other, unseen), (other,))])
     assert edit is not None
     assert session.selection == select(other, 1)
-    assert session.solo == set()
-    assert session.hidden == {other}
+    assert session.hidden == set()
     document.apply(edit.inverse())
     assert session.selection.contains(channel, 1)
-    assert document.clip.channels == [channel, other]
+    assert document.clip.channels == [channel, other, unseen]
 
 
 def test_replacing_the_clip_forgets_the_old_channels_and_cancels_what_goes_on() -> None:

@@ -14,7 +14,7 @@ from tests.model.editing import channel_of, select
 
 
 def test_a_setter_tells_only_what_is_new() -> None:
-    session, channel = Session(), channel_of([0.0, 1.0])
+    session, channel, other = Session(), channel_of([0.0, 1.0]), channel_of([0.0])
     told: list[str] = []
     session.selection_changed.connect(lambda: told.append("selection"))
     session.active_changed.connect(lambda: told.append("active"))
@@ -25,7 +25,7 @@ def test_a_setter_tells_only_what_is_new() -> None:
         session.selection = select(channel, 1)
         session.active = channel
         session.playhead = 1.0
-        session.hidden = {channel}
+        session.hidden = {other}
         session.solo = [channel]
         session.folded = {"root"}
         session.playing = True
@@ -50,6 +50,23 @@ def test_hidden_and_solo_decide_what_is_shown_and_the_lock_what_can_be_edited() 
     assert session.shown_channels(clip) == [c]
     session.hidden = ()
     assert session.shown_channels(clip) == [b, c]
+
+
+def test_keys_that_are_no_longer_shown_are_no_longer_selected() -> None:
+    session = Session()
+    a, b, c = (channel_of([0.0, 1.0], name) for name in "abc")
+    everything = Selection.of_all([a, b, c])
+    counts: list[int] = []
+    session.selection_changed.connect(lambda: counts.append(session.selection.count))
+    session.selection = everything
+    session.hidden = {a}
+    session.solo = {b}
+    session.hidden = session.solo = ()
+    assert session.selection == Selection.of_all([b])
+    session.solo = {c}
+    session.selection = everything
+    assert session.selection == Selection.of_all([c])
+    assert counts == [6, 4, 2, 0, 2]
 
 
 @pytest.mark.parametrize("time", [nan, inf, -inf])
@@ -93,9 +110,9 @@ def test_times_snap_to_keys_and_values_to_curves_nearby() -> None:
 def test_settling_tells_each_thing_once_when_all_is_in_place() -> None:
     session, gone, stays = Session(), channel_of([0.0], "gone"), channel_of([0.0], "stays")
     session.selection, session.active = select(gone, 1), gone
-    session.hidden = session.solo = frozenset({gone, stays})
+    session.hidden, session.solo = frozenset({gone}), frozenset({gone, stays})
     seen: list[tuple[object, ...]] = []
     for event in (session.selection_changed, session.active_changed, session.visibility_changed):
         event.connect(lambda: seen.append((session.selection, session.active, session.hidden, session.solo)))
     session.settle([stays], Selection.of({gone: [1], stays: [1]}), gone)
-    assert seen == [(select(stays, 1), None, {stays}, {stays})] * 3
+    assert seen == [(select(stays, 1), None, frozenset(), {stays})] * 3
