@@ -242,6 +242,12 @@ def test_a_copy_is_equal_and_independent() -> None:
     assert channel.run().tobytes() == before
 
 
+def test_a_copy_uses_no_id_again_that_the_channel_has_used() -> None:
+    channel = three_keys()
+    channel.splice(channel.run_of([3]), make_run())
+    assert channel.copy().splice(make_run(), make_run([9.0])).run["id"].tolist() == [4]
+
+
 def test_the_revision_grows_with_each_change() -> None:
     channel = three_keys()
     revisions = [channel.revision]
