@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 from model.clip import Clip
 from model.formats import anim, native, skel
-from model.formats.content import Content, differences
+from model.formats.content import Content, Loss, differences
 from model.formats.error import MAX_FILE_BYTES, MAX_LINES, MAX_TOKEN_BYTES, FormatError, TextError, shown
 from model.formats.foreign import foreign_kind
 
@@ -17,6 +17,7 @@ __all__ = [
     "FORMATS",
     "Format",
     "FormatError",
+    "Loss",
     "format_of_path",
     "losses",
     "read_bytes",
@@ -108,8 +109,8 @@ def write_bytes(clip: Clip, format_name: str) -> bytes:
         raise FormatError(clip.title or "the clip", 0, 0, fault.problem, fault.remedy) from None
 
 
-def losses(clip: Clip, format_name: str, path: str | os.PathLike[str] | None = None) -> list[str]:
-    """What would be lost if *clip* were saved in this format, one sentence each; empty when nothing is.
+def losses(clip: Clip, format_name: str, path: str | os.PathLike[str] | None = None) -> list[Loss]:
+    """What would be lost if *clip* were saved in this format, one a kind; empty when nothing is.
 
     Names that a .skel beside *path* gives back are no loss.
     """

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
 from model.keyframe import Run, TangentRule
+from model.labels import counted
 
 _FIXED = TangentRule.FIXED
 
@@ -63,42 +65,60 @@ class Content:
         return replace(self, channels=channels)
 
 
-def differences(wanted: Content, held: Content) -> list[str]:
-    """What *held* has lost of *wanted*, one sentence a kind of loss; empty when they are the same bit for bit."""
+class Loss(NamedTuple):
+    """Something that a file does not hold of a clip: what, in a word or two, and a sentence that says of how much."""
+
+    what: str
+    sentence: str
+    in_motion: bool  # other values at some time; else only what is met when editing
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def differences(wanted: Content, held: Content) -> list[Loss]:
+    """What *held* has lost of *wanted*, one a kind of loss, those that change the motion first.
+
+    Empty when they are the same bit for bit.
+    """
     if len(wanted.channels) != len(held.channels):
-        return [f"{len(wanted.channels)} channels become {len(held.channels)}"]
-    return list(_differences(wanted, held))
+        sentence = f"there are {len(held.channels)} channels instead of {len(wanted.channels)}"
+        return [Loss("all channels", sentence, in_motion=True)]
+    return sorted(_differences(wanted, held), key=lambda loss: not loss.in_motion)
 
 
-def _differences(wanted: Content, held: Content) -> Iterator[str]:
-    if wanted.title != held.title:
-        yield f"the title {wanted.title!r} is lost"
-    if not _same_number(wanted.frame_rate, held.frame_rate):
-        yield f"the frame rate becomes {held.frame_rate:g} instead of {wanted.frame_rate:g}"
-    if not (_same_number(wanted.start, held.start) and _same_number(wanted.end, held.end)):
-        yield f"the range becomes {held.start!r} to {held.end!r}"
+def _differences(wanted: Content, held: Content) -> Iterator[Loss]:
     pairs = list(zip(wanted.channels, held.channels, strict=True))
-    for what, fields in _CHANNEL_LOSSES.items():
-        lost = [a.name for a, b in pairs if any(getattr(a, f) != getattr(b, f) for f in fields)]
-        if lost:
-            yield f"{what} of {_these(lost)}"
     yield from _key_differences([(a.name, a.run, b.run) for a, b in pairs])
+    lost = [a.name for a, b in pairs if (a.pre, a.post) != (b.pre, b.post)]
+    if lost:
+        yield Loss("extrapolation", f"the extrapolation of {_these(lost)} changes", in_motion=True)
+    if not (_same_number(wanted.start, held.start) and _same_number(wanted.end, held.end)):
+        yield Loss("the range", f"the range becomes {held.start!r} to {held.end!r}", in_motion=True)
+    if not _same_number(wanted.frame_rate, held.frame_rate):
+        sentence = f"the frame rate becomes {held.frame_rate:g} instead of {wanted.frame_rate:g}"
+        yield Loss("the frame rate", sentence, in_motion=False)
+    if wanted.title != held.title:
+        yield Loss("the title", f"the title {wanted.title!r} is lost", in_motion=False)
+    for field, word in _WORDS.items():
+        lost = [a.name for a, b in pairs if getattr(a, field) != getattr(b, field)]
+        if len(lost) == 1:
+            yield Loss(f"{word}s", f"the {word} of {lost[0]} is lost", in_motion=False)
+        elif lost:
+            yield Loss(f"{word}s", f"the {word}s of {_these(lost)} are lost", in_motion=False)
 
 
-_CHANNEL_LOSSES = {
-    "the name is lost": ("name",),
-    "the unit is lost": ("unit",),
-    "the colour is lost": ("color",),
-    "the lock is lost": ("locked",),
-    "the extrapolation changes": ("pre", "post"),
-}
+# Fields of a channel that say nothing of its motion, and what people call them.
+_WORDS: Final = {"name": "name", "unit": "unit", "color": "colour", "locked": "lock"}
 
 
-def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[str]:
+def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[Loss]:
     """Sentences on keys; the rules are named since each degrades in its own way."""
     for name, a, b in runs:
         if len(a) != len(b):
-            yield f"{_keys(abs(len(a) - len(b)))} lost or added, in {name}"
+            verb = "is" if abs(len(a) - len(b)) == 1 else "are"
+            sentence = f"{counted(abs(len(a) - len(b)), 'key')} of {name} {verb} lost or added"
+            yield Loss("some keys", sentence, in_motion=True)
     same = [(name, a, b) for name, a, b in runs if len(a) == len(b) and a is not b]
     if not same:
         return
@@ -109,27 +129,49 @@ def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[str]:
         where = np.flatnonzero(lost)
         if len(where):
             channels = np.unique(np.searchsorted(ends, where, side="right")).tolist()
-            yield f"{_keys(len(where))} {kind}, in {_these([names[i] for i in channels])}"
+            keys = f"{counted(len(where), 'key')} of {_these([names[i] for i in channels])}"
+            yield Loss(kind.what, f"{keys} {kind.one if len(where) == 1 else kind.many}", kind.in_motion)
 
 
-def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+class _Kind(NamedTuple):
+    """A way in which keys differ: what is lost, what one key does and what many do."""
+
+    what: str
+    one: str
+    many: str
+    in_motion: bool
+
+
+def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[_Kind, NDArray[np.bool_]]]:
     """What may have become of a key, and the keys of which it has."""
-    yield "moved", (_bits(a["time"]) != _bits(b["time"])) | (_bits(a["value"]) != _bits(b["value"]))
+    moved = (_bits(a["time"]) != _bits(b["time"])) | (_bits(a["value"]) != _bits(b["value"]))
+    yield _Kind("the place of keys", "is moved", "are moved", in_motion=True), moved
     for side in ("in", "out"):
         rules, others = a[f"rule_{side}"], b[f"rule_{side}"]
         changed = rules != others
         pairs = zip(rules[changed].tolist(), others[changed].tolist(), strict=True)
         for rule, other in sorted(set(pairs)):
-            kind = f"no longer {TangentRule(rule).word} but {TangentRule(other).word} on the {side} side"
-            yield kind, (rules == rule) & (others == other)
+            yield _rule_lost(TangentRule(rule), TangentRule(other), side), (rules == rule) & (others == other)
         slopes = _bits(a[f"slope_{side}"]) != _bits(b[f"slope_{side}"])
-        yield "with another slope", slopes & ~changed & (rules == _FIXED)
-    yield "no longer marked as broken", a["broken"] & ~b["broken"]
-    yield "no longer marked as unified", b["broken"] & ~a["broken"]
+        slope = f"another slope on the {side} side"
+        yield _Kind("slopes", f"gets {slope}", f"get {slope}", in_motion=True), slopes & ~changed & (rules == _FIXED)
+    for mark, lost in (("broken", a["broken"] & ~b["broken"]), ("unified", b["broken"] & ~a["broken"])):
+        kind = f"no longer marked as {mark}"
+        yield _Kind(f"{mark} marks", f"is {kind}", f"are {kind}", in_motion=False), lost
 
 
-def _keys(number: int) -> str:
-    return "1 key is" if number == 1 else f"{number} keys are"
+def _rule_lost(rule: TangentRule, other: TangentRule, side: str) -> _Kind:
+    """A held span is another motion; the other rules end in the slope that they gave."""
+    if rule is TangentRule.STEP:
+        becomes = f"its value: step becomes {other.word}"
+        return _Kind(
+            "steps",
+            f"no longer holds {becomes}",
+            f"no longer hold {becomes.replace('its value', 'their values')}",
+            in_motion=True,
+        )
+    kind = f"{other.word} instead of {rule.word} on the {side} side"
+    return _Kind(f"{rule.word} tangents", f"becomes {kind}", f"become {kind}", in_motion=other is TangentRule.STEP)
 
 
 def _bits(column: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -149,6 +149,8 @@ class KeyWriter:
         """The lines of each run; all runs are worked on together, since there may be many short ones."""
         keys = runs[0] if len(runs) == 1 else np.concatenate([np.zeros(0, KEY_DTYPE), *runs])
         text = b"".join([self._lines(keys[i : i + _LINES]) for i in range(0, len(keys), _LINES)])
+        if len(runs) == 1:
+            return [text]
         ends = np.flatnonzero(np.frombuffer(text, np.uint8) == ord("\n")) + 1
         cuts = np.concatenate([[0], ends])[np.cumsum([0, *map(len, runs)])].tolist()
         return [text[first:last] for first, last in pairwise(cuts)]

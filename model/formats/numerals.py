@@ -113,11 +113,11 @@ class _Words:
         last, plain = self._digits(ends, np.minimum(places, 8), fewest=0)
         values = last.astype(np.int64)
         if (places > 8).any():
-            middle, digits = self._digits(ends - 8, np.clip(places - 8, 0, 8), fewest=0)
+            middle, digits = self._digits(ends - 8, np.minimum(np.maximum(places - 8, 0), 8), fewest=0)
             values += middle.astype(np.int64) * 10**8
             plain &= digits
         if (places > 16).any():
-            first, digits = self._digits(ends - 16, np.clip(places - 16, 0, 8), fewest=0)
+            first, digits = self._digits(ends - 16, np.minimum(np.maximum(places - 16, 0), 8), fewest=0)
             plain &= digits & (first < 100)
             values += np.minimum(first, np.uint64(99)).astype(np.int64) * 10**16
         plain &= (places <= _MOST_PLACES) & ((wholes == 0) | (lengths + places <= 18))
@@ -125,7 +125,7 @@ class _Words:
 
     def _digits(self, ends: Integers, lengths: Integers, *, fewest: int = 1) -> tuple[Octets, Bools]:
         """The integers that *lengths* digits before *ends* spell, and where they are *fewest* to 8 and all digits."""
-        octets = (self.octets[ends - 8] ^ _ZEROS) & _LAST[np.clip(lengths, 0, 8)]
+        octets = (self.octets[ends - 8] ^ _ZEROS) & _LAST[np.minimum(np.maximum(lengths, 0), 8)]
         spread = octets + np.uint64(0x7676767676767676) | octets  # a byte above 9 sets its highest bit
         plain = (spread & np.uint64(0x8080808080808080) == 0) & (lengths >= fewest) & (lengths <= 8)
         # Pairs of digits, then of pairs, then of quads are added up in place, eight digits by three multiplications.
