@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject
 from shiboken6 import isValid
 
 from model.channel import Channel
+from model.document import Edit
 from model.labels import counted, keys_text
 from widgets.fitting import MARGINS
 from widgets.soon import Soon
@@ -31,6 +32,7 @@ class Watcher(QObject):
     def _listen_to_document(self) -> None:
         document, session = self._window.document, self._window.session
         document.gesture_changed.connect(self._gesture_changed)
+        document.committed.connect(self._committed)
         for event in (document.clip_replaced, document.membership_changed):
             event.connect(self.refresh)
         for event in (session.selection_changed, session.active_changed, session.visibility_changed):
@@ -73,7 +75,12 @@ class Watcher(QObject):
             self._window
         ):  # previews change nothing that an action asks about
             self._in_gesture = in_gesture
-            self._window.actions_by_id["edit.undo"].refresh({})
+            for name in ("edit.undo", "file.save"):
+                self._window.actions_by_id[name].refresh({})
+
+    def _committed(self, edit: Edit) -> None:
+        if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen
+            self._window.say(edit.label)
 
     def _history_moved(self, *_place: object) -> None:
         self.refresh()

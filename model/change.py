@@ -60,7 +60,10 @@ type Change = Splice | Setting | Membership
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Edit:
-    """One undo step: its label, its changes as stored, and what was selected and active on both sides of it."""
+    """One undo step: its label, its changes as stored, and what was selected and active on both sides of it.
+
+    *replaced* is how many keys gave way to others as it was made.
+    """
 
     label: str
     changes: tuple[Change, ...]
@@ -68,6 +71,7 @@ class Edit:
     selection_after: Selection = Selection.NONE
     active_before: Channel | None = None
     active_after: Channel | None = None
+    replaced: int = 0
 
     def inverse(self) -> "Edit":
         """The step back."""

@@ -11,8 +11,8 @@ from model.channel import Channel
 from model.clip import Clip
 from model.event import Event
 from model.keyframe import Run
-from model.labels import label_of
-from model.selection import Ids, Selection
+from model.labels import counted, label_of
+from model.selection import NO_IDS, Ids, Selection
 from model.session import Session
 
 __all__ = ["Change", "Document", "Edit", "Gesture", "Membership", "Setting", "Splice", "added_keys"]
@@ -45,6 +45,24 @@ def _ids_by_channel(changes: Sequence[Change]) -> tuple[dict[Channel, Ids], dict
                 known = ids.get(change.channel)
                 ids[change.channel] = part if known is None else np.concatenate([known, part])
     return gone, come
+
+
+def replaced_keys(changes: Sequence[Change]) -> int:
+    """How many keys gave way to others that came in or moved over them; keys that were only deleted do not count."""
+    gone, come = _ids_by_channel(changes)
+    replacing = {
+        change.channel
+        for change in changes
+        if isinstance(change, Splice) and change.channel in gone and not _only_deletes(change)
+    }
+    return sum(len(np.setdiff1d(gone[channel], come.get(channel, NO_IDS))) for channel in replacing)
+
+
+def _only_deletes(splice: Splice) -> bool:
+    """Whether every key after *splice* was there before it, at the same time."""
+    before, after = splice.before, splice.after
+    stayed = before[np.isin(before["id"], after["id"])]
+    return all(np.array_equal(stayed[field], after[field]) for field in ("id", "time"))
 
 
 class Document:
@@ -217,15 +235,20 @@ class Gesture:
         document.gesture_changed.emit()
 
     def commit(self) -> Edit | None:
-        """Keep the present preview as one edit; None, and nothing is told, if nothing differs from the start."""
+        """Keep the present preview as one edit; None, and nothing is told, if nothing differs from the start.
+
+        The label also says how many keys were landed on and are gone.
+        """
         document = self._require_open()
         changes = differing(self._put)
         session = document.session
         document.gesture = None
         if changes:
-            self.edit = Edit(
-                self.label, tuple(changes), self._selection, session.selection, self._active, session.active
-            )
+            replaced = replaced_keys(changes)
+            if replaced:
+                self.label += f", replacing {counted(replaced, 'key')}"
+            sides = self._selection, session.selection, self._active, session.active
+            self.edit = Edit(self.label, tuple(changes), *sides, replaced=replaced)
         document.gesture_changed.emit()
         if self.edit is not None:
             document.committed.emit(self.edit)

@@ -10,8 +10,8 @@ from model.channel import Channel
 
 type Ids = NDArray[np.int64]
 
-_NO_IDS: Ids = np.empty(0, np.int64)
-_NO_IDS.flags.writeable = False
+NO_IDS: Ids = np.empty(0, np.int64)
+NO_IDS.flags.writeable = False
 
 
 def _sorted_ids(ids: ArrayLike) -> Ids:
@@ -50,7 +50,7 @@ class Selection:
 
     def ids(self, channel: Channel) -> Ids:
         """Ids of the selected keys of *channel*, increasing; empty if there are none."""
-        return self._ids.get(channel, _NO_IDS)
+        return self._ids.get(channel, NO_IDS)
 
     @property
     def channels(self) -> tuple[Channel, ...]:

@@ -14,6 +14,8 @@ from app.main_window import MainWindow
 from app.menus import MENUS, TOOLBAR, TOOLBAR_MENUS, key_sequences
 from app.questions import Answer
 from model.clip import Clip
+from model.document import Setting
+from model.selection import Selection
 from tests.app.conftest import MakeWindow, answers_of, small_clip
 from widgets.icons import ICONS_FOLDER
 
@@ -165,6 +167,16 @@ def test_no_command_touches_keys_that_are_not_shown(window: MainWindow) -> None:
     window.session.active = walk
     window.actions_by_id["edit.select_channel"].run()
     assert window.status.message.text().endswith("the active channel is not shown")
+
+
+def test_the_status_line_says_that_a_nudge_has_replaced_a_key(window: MainWindow) -> None:
+    walk = window.document.clip.channels[0]
+    window.document.do("Set", lambda clip: [Setting(clip, "frame_rate", clip.frame_rate, 2.0)])
+    window.session.selection = Selection.of_key(walk, 2)
+    window.actions_by_id["key.later"].run()
+    assert len(walk) == 3
+    assert window.undo_stack.undoText() == "Nudge 1 key of root.tx by +0.50 s, replacing 1 key"
+    assert window.status.message.text() == window.undo_stack.undoText()
 
 
 def test_what_cannot_run_is_disabled_and_says_why(window: MainWindow) -> None:

@@ -1,9 +1,13 @@
 """Gesture: previews from the start, one edit or nothing, covered keys that come back."""
 
+from collections.abc import Callable
+
 import pytest
 
 from model import edits
+from model.channel import Channel
 from model.clip import Clip
+from model.clipboard import text_from_keys
 from model.document import Change, added_keys
 from model.keyframe import TangentRule
 from model.selection import Selection
@@ -205,3 +209,36 @@ def test_what_is_not_selected_is_not_touched() -> None:
         gesture.preview(lambda clip: edits.scale(clip, Selection.of_all([channel]), 0.0, 0.0, -2.0, 3.0))
     assert other.revision == revision
     assert other.run().tobytes() == bytes_before
+
+
+@pytest.mark.parametrize(
+    ("compute", "replaced"),
+    [
+        (lambda channel, clip: edits.move(clip, select(channel, 2), 1.0, 0.0), 1),
+        (lambda channel, clip: edits.nudge(clip, select(channel, 2), clip.frame_rate * 2.0), 1),
+        (lambda channel, clip: edits.scale(clip, select(channel, 2, 3), 1.0, 0.0, 2.0, 1.0), 1),
+        (lambda channel, clip: edits.set_columns(clip, select(channel, 1, 2), "time", lambda c, k: [2.0, 4.0]), 2),
+        (lambda channel, clip: edits.duplicate(clip, select(channel, 1, 2), 3.0), 2),
+        (lambda channel, clip: edits.paste(clip, copied(channel, 2, 5), 0.5, replace=True), 3),
+        (lambda channel, clip: edits.paste(clip, copied(channel, 2), 0.5), 0),
+        (lambda channel, clip: edits.move(clip, select(channel, 2), 1.5, 0.0), 0),
+        (lambda channel, clip: edits.set_columns(clip, select(channel, 1), "value", lambda c, k: 7.0), 0),
+        (lambda channel, clip: edits.delete(clip, select(channel, 2, 3)), 0),
+    ],
+    ids=["move", "nudge", "scale", "typed times", "duplicate", "paste replacing", "paste", "pass", "value", "delete"],
+)
+def test_an_edit_says_how_many_keys_it_replaced(
+    compute: Callable[[Channel, Clip], list[Change]], replaced: int
+) -> None:
+    channel = channel_of([0.0, 1.0, 2.0, 3.0, 4.0])
+    document = document_of(channel)
+    edit = document.do("Change it", lambda clip: compute(channel, clip), selection=added_keys)
+    assert edit is not None
+    words = {0: "Change it", 1: "Change it, replacing 1 key"}
+    assert edit.label == words.get(replaced, f"Change it, replacing {replaced} keys")
+    assert edit.replaced == replaced
+
+
+def copied(channel: Channel, *key_ids: int) -> str:
+    """The text that copying these keys puts on the clipboard."""
+    return text_from_keys(select(channel, *key_ids))

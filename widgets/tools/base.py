@@ -5,6 +5,7 @@ from typing import ClassVar, NamedTuple, Protocol
 from PySide6.QtCore import Qt
 
 from model.document import Gesture
+from model.labels import counted
 from widgets.graph import Graph
 from widgets.hit_test import EMPTY, Hit
 
@@ -85,6 +86,12 @@ class EditDrag:
     def scrolls(self) -> Axes:
         """Both axes, unless the drag is about one."""
         return BOTH_AXES
+
+    @property
+    def landing(self) -> str:
+        """For the hint: that keys lie where the dragged ones are now, and would go."""
+        covered = self.gesture.keys_fewer
+        return f" · lands on {counted(covered, 'key')}, which would go" if covered else ""
 
     def finish(self, point: Point) -> None:
         """Commit; a gesture that changed nothing leaves no undo step."""

@@ -41,13 +41,6 @@ class MoveKeys(EditDrag):
         self.gesture.preview(moved, label=document.label_of("Move", selection, d_time, d_value))
         self.d_time, self.d_value = d_time, d_value
 
-    def finish(self, point: Point) -> None:
-        """Keep it; the undo step says how many keys were landed on and are gone."""
-        covered = self.gesture.keys_fewer
-        if covered:
-            self.gesture.label += f", replacing {counted(covered, 'key')}"
-        super().finish(point)
-
     @property
     def scrolls(self) -> Axes:
         """Only along the axis that Shift has left free."""
@@ -56,6 +49,4 @@ class MoveKeys(EditDrag):
     @property
     def hint(self) -> str:
         """The way so far."""
-        covered = self.gesture.keys_fewer
-        lands = f" · lands on {counted(covered, 'key')}, which would go" if covered else ""
-        return f"dt {time_text(self.d_time)}  dv {value_text(self.channel, self.d_value)}{lands} · {HINT}"
+        return f"dt {time_text(self.d_time)}  dv {value_text(self.channel, self.d_value)}{self.landing} · {HINT}"

@@ -24,7 +24,7 @@ class RetimeKeys(ScaleKeys):
     @property
     def hint(self) -> str:
         """The factor so far."""
-        return f"{self._amount(*self.factors)} · Ctrl: no snap · Alt: fine · Esc: cancel"
+        return f"{self._amount(*self.factors)}{self.landing} · Ctrl: no snap · Alt: fine · Esc: cancel"
 
 
 class RetimeTool(ScaleTool):

@@ -105,7 +105,9 @@ class ScaleKeys(EditDrag):
     @property
     def hint(self) -> str:
         """The factors so far."""
-        return f"{self._amount(*self.factors)} · Shift: one axis · Ctrl: no snap · Alt: fine · Esc: cancel"
+        return (
+            f"{self._amount(*self.factors)}{self.landing} · Shift: one axis · Ctrl: no snap · Alt: fine · Esc: cancel"
+        )
 
 
 class ScaleTool(SelectTool):
