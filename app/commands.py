@@ -246,7 +246,9 @@ def _convert(arguments: argparse.Namespace) -> None:
     clip = read_clip(arguments.file, skeleton=arguments.skel)
     lost = losses(clip, format_name, arguments.out)
     if lost and not arguments.lossy:
-        raise CommandError(f"{arguments.out}: not written, since {'; '.join(lost)} (--lossy writes it all the same)")
+        raise CommandError(
+            f"{arguments.out}: not written, since {'; '.join(map(str, lost))} (--lossy writes it all the same)"
+        )
     for note in save_clip(clip, arguments.out, format_name).notes:
         print(_printable(note), file=sys.stderr)
 

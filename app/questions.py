@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from model.formats import FORMATS, format_of_path
+from model.formats import FORMATS, Loss, format_of_path
 
 Icon, Role, Standard = QMessageBox.Icon, QMessageBox.ButtonRole, QMessageBox.StandardButton
 
@@ -43,8 +43,10 @@ class Questions:
     def __init__(self, parent: QWidget) -> None:
         self._parent = parent
 
-    def save_changes(self, name: str) -> Answer:
-        """Before unsaved changes would be lost: SAVE, DISCARD or CANCEL."""
+    def save_changes(self, name: str, lacking: Sequence[Loss] = ()) -> Answer:
+        """Before unsaved changes would be lost: SAVE, DISCARD or CANCEL; NATIVE if the file is *lacking* something."""
+        if lacking:
+            return self._save_what_is_lacking(name, lacking)
         box = self._box(Icon.Warning, f"Save the changes to {name}?", "Otherwise what changed since is lost.")
         box.setStandardButtons(Standard.Save | Standard.Discard | Standard.Cancel)
         box.button(Standard.Discard).setText("&Don't Save")
@@ -53,14 +55,19 @@ class Questions:
         chosen = _run(box)
         return {Standard.Save: Answer.SAVE, Standard.Discard: Answer.DISCARD}.get(Standard(chosen), Answer.CANCEL)
 
-    def lossy_save(self, name: str, format_label: str, losses: Sequence[str]) -> Answer:
+    def _save_what_is_lacking(self, name: str, lacking: Sequence[Loss]) -> Answer:
+        text = f"Only a Hermite clip keeps it all. What changed since {name} was saved would be lost too."
+        box = self._box(Icon.Warning, f"{name} does not hold all of this clip", f"{listed(lacking)}\n\n{text}")
+        native = box.addButton("Save as &Hermite Clip…", Role.AcceptRole)
+        again = box.addButton(f"&Save to {Path(name).suffix or 'the File'}", Role.AcceptRole)
+        discard = box.addButton("&Don't Save", Role.DestructiveRole)
+        cancel = box.addButton(Standard.Cancel)
+        answers = {native: Answer.NATIVE, again: Answer.SAVE, discard: Answer.DISCARD}
+        return self._chosen(box, answers, default=native, escape=cancel)
+
+    def lossy_save(self, name: str, losses: Sequence[Loss]) -> Answer:
         """The format cannot hold all of the clip: NATIVE, ANYWAY or CANCEL."""
-        listed = "\n".join(f"•  {loss}" for loss in losses)
-        box = self._box(
-            Icon.Warning,
-            f"{name} cannot hold all of this clip",
-            f"Saved as “{format_label}” it would lose:\n\n{listed}",
-        )
+        box = self._box(Icon.Warning, f"{name} cannot hold all of this clip", listed(losses))
         native = box.addButton("Save as &Hermite Clip…", Role.AcceptRole)
         anyway = box.addButton("Save &Anyway", Role.DestructiveRole)
         cancel = box.addButton(Standard.Cancel)
@@ -174,6 +181,16 @@ def _run(dialog: QDialog) -> int:
     answer = dialog.exec()
     dialog.deleteLater()
     return answer
+
+
+def listed(losses: Sequence[Loss]) -> str:
+    """What is lost, first what is seen when the clip plays, then what is only met when it is edited."""
+    parts = []
+    for heading, in_motion in (("The motion changes:", True), ("Lost for editing, the motion stays:", False)):
+        lines = [f"•  {loss}" for loss in losses if loss.in_motion is in_motion]
+        if lines:
+            parts.append("\n".join([heading, *lines]))
+    return "\n\n".join(parts)
 
 
 def format_filters() -> dict[str, str]:

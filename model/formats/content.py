@@ -100,8 +100,8 @@ def _differences(wanted: Content, held: Content) -> Iterator[Loss]:
         yield Loss("the frame rate", sentence, in_motion=False)
     if wanted.title != held.title:
         yield Loss("the title", f"the title {wanted.title!r} is lost", in_motion=False)
-    for field, word in _WORDS.items():
-        lost = [a.name for a, b in pairs if getattr(a, field) != getattr(b, field)]
+    for column, word in _WORDS.items():
+        lost = [a.name for a, b in pairs if getattr(a, column) != getattr(b, column)]
         if len(lost) == 1:
             yield Loss(f"{word}s", f"the {word} of {lost[0]} is lost", in_motion=False)
         elif lost:

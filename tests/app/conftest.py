@@ -31,10 +31,10 @@ class Answers(Questions):
         self.asked.append(question)
         return self.answers.get(question, otherwise)  # type: ignore[return-value]
 
-    def save_changes(self, name: str) -> Answer:
+    def save_changes(self, name: str, lacking: object = ()) -> Answer:
         return self._answer("save_changes", Answer.CANCEL)
 
-    def lossy_save(self, name: str, format_label: str, losses: object) -> Answer:
+    def lossy_save(self, name: str, losses: object) -> Answer:
         return self._answer("lossy_save", Answer.CANCEL)
 
     def overwrite_changed(self, name: str) -> bool:

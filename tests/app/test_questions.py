@@ -9,9 +9,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QLabel, QMessageBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.questions import Answer, Questions, format_filters
+from app.questions import Answer, Questions, format_filters, listed
+from model.formats import Loss
 
 NAME = "<b>walk</b>.anim"
+LOST = [
+    Loss("steps", "18 keys of lamp no longer hold their values", in_motion=True),
+    Loss("names", "the name of lamp is lost", in_motion=False),
+]
 
 type Ask = Callable[[Questions], object]
 
@@ -19,8 +24,11 @@ ASKED: list[tuple[Ask, str, object]] = [
     (lambda q: q.save_changes(NAME), "Save", Answer.SAVE),
     (lambda q: q.save_changes(NAME), "Don't Save", Answer.DISCARD),
     (lambda q: q.save_changes(NAME), "Cancel", Answer.CANCEL),
-    (lambda q: q.lossy_save(NAME, "Course animation", ["names"]), "Save as Hermite Clip…", Answer.NATIVE),
-    (lambda q: q.lossy_save(NAME, "Course animation", ["names"]), "Save Anyway", Answer.ANYWAY),
+    (lambda q: q.save_changes(NAME, LOST), "Save as Hermite Clip…", Answer.NATIVE),
+    (lambda q: q.save_changes(NAME, LOST), "Save to .anim", Answer.SAVE),
+    (lambda q: q.save_changes(NAME, LOST), "Don't Save", Answer.DISCARD),
+    (lambda q: q.lossy_save(NAME, LOST), "Save as Hermite Clip…", Answer.NATIVE),
+    (lambda q: q.lossy_save(NAME, LOST), "Save Anyway", Answer.ANYWAY),
     (lambda q: q.overwrite_changed(NAME), "Replace It", True),
     (lambda q: q.reload_changed(NAME, modified=True), "Read Again", True),
     (lambda q: q.reload_changed(NAME, modified=False), "Keep This", False),
@@ -29,7 +37,8 @@ ASKED: list[tuple[Ask, str, object]] = [
 ]
 ESCAPED: list[tuple[Ask, object]] = [
     (lambda q: q.save_changes(NAME), Answer.CANCEL),
-    (lambda q: q.lossy_save(NAME, "Course animation", ["names"]), Answer.CANCEL),
+    (lambda q: q.save_changes(NAME, LOST), Answer.CANCEL),
+    (lambda q: q.lossy_save(NAME, LOST), Answer.CANCEL),
     (lambda q: q.overwrite_changed(NAME), False),
     (lambda q: q.reload_changed(NAME, modified=False), False),
     (lambda q: q.revert(NAME), False),
@@ -106,3 +115,14 @@ def test_a_name_without_an_extension_gets_that_of_its_kind(questions: Questions,
 def test_a_skeleton_chosen_with_a_clip_is_kept_apart(questions: Questions, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: (["/a/walk.skel", "/a/walk.anim"], ""))
     assert questions.path_to_open("/a") == ("/a/walk.anim", "/a/walk.skel")
+
+
+def test_what_changes_the_motion_is_told_apart_from_what_changes_the_editing() -> None:
+    assert listed(LOST).splitlines() == [
+        "The motion changes:",
+        "•  18 keys of lamp no longer hold their values",
+        "",
+        "Lost for editing, the motion stays:",
+        "•  the name of lamp is lost",
+    ]
+    assert "motion changes" not in listed(LOST[1:])

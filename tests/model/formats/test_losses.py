@@ -24,38 +24,38 @@ def keys(rule: TangentRule, side: str, broken: bool) -> Clip:
 
 LOST = {
     "nothing": (clip_with(), []),
-    "a name": (Clip([Channel("hips")]), ["the name is lost of hips"]),
-    "a unit": (clip_with(unit="m"), ["the unit is lost of channel 0"]),
-    "a colour": (clip_with(color="#ff0000"), ["the colour is lost of channel 0"]),
-    "a lock": (clip_with(locked=True), ["the lock is lost of channel 0"]),
+    "a name": (Clip([Channel("hips")]), ["the name of hips is lost"]),
+    "a unit": (clip_with(unit="m"), ["the unit of channel 0 is lost"]),
+    "a colour": (clip_with(color="#ff0000"), ["the colour of channel 0 is lost"]),
+    "a lock": (clip_with(locked=True), ["the lock of channel 0 is lost"]),
     "a title": (Clip(title="Walk"), ["the title 'Walk' is lost"]),
     "a frame rate": (Clip(frame_rate=24), ["the frame rate becomes 30 instead of 24"]),
     "held spans": (
         keys(TangentRule.STEP, "out", True),
-        ["3 keys are no longer step but flat on the out side, in channel 0"],
+        ["3 keys of channel 0 no longer hold their values: step becomes flat"],
     ),
     "the rule auto": (
         keys(TangentRule.AUTO, "in", True),
-        ["3 keys are no longer auto but fixed on the in side, in channel 0"],
+        ["3 keys of channel 0 become fixed instead of auto on the in side"],
     ),
     "broken tangents": (
         keys(TangentRule.SMOOTH, "in", True),
-        ["3 keys are no longer marked as broken, in channel 0"],
+        ["3 keys of channel 0 are no longer marked as broken"],
     ),
     "unified tangents": (
         keys(TangentRule.FLAT, "in", False),
-        ["3 keys are no longer marked as unified, in channel 0"],
+        ["3 keys of channel 0 are no longer marked as unified"],
     ),
     "many names": (
         Clip([Channel(name) for name in "abcdef"]),
-        ["the name is lost of 6 channels (a, b, ...)"],
+        ["the names of 6 channels (a, b, ...) are lost"],
     ),
 }
 
 
 @pytest.mark.parametrize(("clip", "expected"), LOST.values(), ids=LOST.keys())
 def test_each_loss_is_one_sentence(clip: Clip, expected: list[str]) -> None:
-    assert losses(clip, "anim") == expected
+    assert [str(loss) for loss in losses(clip, "anim")] == expected
     assert losses(clip, "hermite") == []
 
 
@@ -76,12 +76,14 @@ def test_what_was_lost_once_is_not_lost_again(format_name: str, clip: Clip) -> N
 def test_a_clip_of_other_keys_or_channels_is_different() -> None:
     clip = clip_with(post=Extrapolation.CYCLE)
     other = Clip([Channel("channel 0", make_run([0, 1], [0, 3]), post=Extrapolation.LINEAR)], start=-0.0, end=2)
-    assert differences(Content.of(clip), Content.of(other)) == [
+    assert [str(loss) for loss in differences(Content.of(clip), Content.of(other))] == [
+        "1 key of channel 0 is lost or added",
+        "the extrapolation of channel 0 changes",
         "the range becomes -0.0 to 2.0",
-        "the extrapolation changes of channel 0",
-        "1 key is lost or added, in channel 0",
     ]
-    assert differences(Content.of(clip), Content.of(Clip())) == ["1 channels become 0"]
+    assert [str(loss) for loss in differences(Content.of(clip), Content.of(Clip()))] == [
+        "there are 0 channels instead of 1"
+    ]
 
 
 @pytest.mark.parametrize("field", ["time", "value"])
@@ -90,4 +92,16 @@ def test_a_zero_that_lost_its_sign_is_a_difference(field: str) -> None:
     other = run.copy()
     other[field][0] = -0.0
     contents = [Content.of(Clip([Channel("c", keys)])) for keys in (run, other)]
-    assert differences(*contents) == ["1 key is moved, in c"]
+    assert [str(loss) for loss in differences(*contents)] == ["1 key of c is moved"]
+
+
+def test_what_changes_the_motion_comes_before_what_changes_only_the_editing() -> None:
+    run = make_run([0, 1, 2], [0, 3, 1], rules_in=TangentRule.AUTO, rules_out=TangentRule.STEP, broken=True)
+    lost = losses(Clip([Channel("lamp", run, locked=True)], end=2, frame_rate=24), "anim")
+    assert [(loss.what, loss.in_motion) for loss in lost] == [
+        ("steps", True),
+        ("auto tangents", False),
+        ("the frame rate", False),
+        ("names", False),
+        ("locks", False),
+    ]

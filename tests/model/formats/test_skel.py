@@ -100,9 +100,9 @@ def test_names_that_the_skeleton_gives_back_are_no_loss(tmp_path: Path) -> None:
     assert losses(clip, "anim", tmp_path / "walk.anim") == []
     (tmp_path / "elsewhere").mkdir()
     lost = losses(clip, "anim", tmp_path / "elsewhere" / "walk.anim")
-    assert [sentence.partition(" of ")[0] for sentence in lost] == ["the name is lost", "the unit is lost"]
+    assert [loss.what for loss in lost] == ["names", "units"]
     clip.channels[0].name = "renamed"
-    assert losses(clip, "anim", path) == ["the name is lost of renamed"]
+    assert [str(loss) for loss in losses(clip, "anim", path)] == ["the name of renamed is lost"]
 
 
 def test_the_wasp_has_names_for_all_its_channels(shared: Path) -> None:
