@@ -21,6 +21,7 @@ _SUFFIX: Final = ".hermite-tmp"
 # Absent on some systems, where files behave so anyway (no inheritance, binary mode) or the protection does not exist.
 _FLAGS: Final = sum(getattr(os, name, 0) for name in ("O_CLOEXEC", "O_NOFOLLOW", "O_BINARY", "O_NOINHERIT"))
 _PIECE: Final = 1 << 20
+_WRITABLE: Final = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
 class Durability(Enum):
@@ -105,6 +106,9 @@ def _status_of(name: str, target: str) -> os.stat_result | None:
         raise SaveError(name, "this is a folder; give a file name")
     if not stat.S_ISREG(status.st_mode):
         raise SaveError(name, "this is not a regular file but a device or a pipe; give another name")
+    # The folder's mode would let it be replaced all the same, and an administrator may write anything.
+    if not status.st_mode & _WRITABLE or not os.access(target, os.W_OK):
+        raise SaveError(name, "the file is read-only; make it writable, or save under another name")
     return status
 
 

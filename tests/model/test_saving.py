@@ -48,7 +48,7 @@ def test_a_new_file_has_the_mode_that_the_umask_asks_for(tmp_path: Path) -> None
     assert stat.S_IMODE((tmp_path / "new.anim").stat().st_mode) == 0o640
 
 
-@pytest.mark.parametrize("mode", [0o600, 0o644, 0o664, 0o400])
+@pytest.mark.parametrize("mode", [0o600, 0o644, 0o664, 0o240])
 def test_the_mode_is_kept(target: Path, mode: int) -> None:
     target.chmod(mode)
     save_atomic(target, NEW)
@@ -205,3 +205,17 @@ def test_a_writer_that_errs_never_reaches_the_file(
         save_clip(FULL, target, format_name)
     assert target.read_bytes() == OLD
     assert others(target) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such modes")
+@pytest.mark.parametrize("through_a_link", [False, True])
+def test_a_read_only_file_is_not_replaced(target: Path, through_a_link: bool) -> None:
+    before = target.read_bytes()
+    target.chmod(0o444)
+    path = target
+    if through_a_link:
+        path = target.with_name("link.anim")
+        path.symlink_to(target)
+    with pytest.raises(SaveError, match="the file is read-only; "):
+        save_atomic(path, NEW)
+    assert target.read_bytes() == before
