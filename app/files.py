@@ -12,7 +12,7 @@ from app.questions import Answer, home_folder
 from model.channel import Channel
 from model.clip import Clip
 from model.document import Setting
-from model.formats import FORMATS, FormatError, format_of_path, losses
+from model.formats import FORMATS, FormatError, Loss, format_of_path, losses
 from model.formats.error import TextError
 from model.formats.skel import channel_names, channel_units, joint_names
 from model.saving import Durability, SaveError, save_clip, sweep_temp
@@ -36,7 +36,8 @@ class Files(QObject):
         self.name = UNTITLED
         self.format_name = NATIVE
         self._fingerprint: Fingerprint | None = None
-        self._accepted_losses: list[str] = []
+        self._opened_losses: list[Loss] = []  # what the file lacked already when it was opened
+        self._accepted_losses: list[Loss] = []
         self._asked_about: Fingerprint | None = None
 
     @property
@@ -138,6 +139,7 @@ class Files(QObject):
 
     def save(self) -> bool:
         """Write the clip to its file; asks for one if it has none. True when it is there."""
+        self._window.finish_entry()
         self._window.cancel_gesture()
         if not self.path:
             return self.save_as()
@@ -145,6 +147,7 @@ class Files(QObject):
 
     def save_as(self, format_name: str | None = None) -> bool:
         """Write the clip to a file that the user chooses; the extension decides the format, else the kind chosen."""
+        self._window.finish_entry()
         self._window.cancel_gesture()
         format_name = format_name or self.format_name
         stem = self.path or os.path.join(self._folder(), self.name)
@@ -157,7 +160,7 @@ class Files(QObject):
     def _save_to(self, path: str, format_name: str) -> bool:
         lost = losses(self._window.document.clip, format_name, path)
         if lost and lost != self._accepted_losses:
-            answer = self._window.questions.lossy_save(display_name(path), FORMATS[format_name].label, lost)
+            answer = self._window.questions.lossy_save(display_name(path), lost)
             if answer is Answer.NATIVE:
                 return self.save_as(NATIVE)
             if answer is not Answer.ANYWAY:
@@ -170,27 +173,40 @@ class Files(QObject):
         except (SaveError, FormatError) as error:
             self._window.questions.tell_error(f"{display_name(path)} was not saved", str(error))
             return False
+        if path != self.path:
+            self._opened_losses = []
         self.path, self.name, self.format_name = path, display_name(path), format_name
-        self._fingerprint = fingerprint_of(path)
+        self._fingerprint = self._asked_about = fingerprint_of(path)
         self._accepted_losses = lost
         self._remember(path)
-        if result.durability is Durability.CONFIRMED:
+        whole = not self._lacking()
+        if whole and result.durability is Durability.CONFIRMED:
             self._window.undo_stack.setClean()
-        else:  # the disk may still lose it, so the clip counts as unsaved
+        else:  # the file is another than what is shown, or the disk may still lose it: the clip counts as unsaved
             self._window.undo_stack.resetClean()
         self.changed.emit()
-        self._window.say(f"Saved {self.name}")
+        without = ", ".join(dict.fromkeys(loss.what for loss in lost))
+        self._window.say(
+            f"Saved to {self.name}" + ("" if whole else f" without {without}; the clip still differs from the file")
+        )
         if result.notes:
             self._window.questions.tell_warning(f"{self.name} was saved, but", "\n".join(result.notes))
         return result.durability is Durability.CONFIRMED
 
     def may_lose_changes(self) -> bool:
         """Whether the clip may go: it is as saved, or the user saves it or gives it up."""
+        self._window.finish_entry()
         self._window.cancel_gesture()
         if not self.modified:
             return True
-        answer = self._window.questions.save_changes(self.name)
+        answer = self._window.questions.save_changes(self.name, self._lacking())
+        if answer is Answer.NATIVE:
+            return self.save_as(NATIVE)
         return self.save() if answer is Answer.SAVE else answer is Answer.DISCARD
+
+    def _lacking(self) -> list[Loss]:
+        """What the file has lost of the clip since it was opened, with the user's leave."""
+        return [] if self._accepted_losses == self._opened_losses else self._accepted_losses
 
     # --- the file on disk
 
@@ -204,9 +220,8 @@ class Files(QObject):
         if now == self._asked_about:
             return
         self._asked_about = now
-        if self._window.questions.reload_changed(self.name, modified=self.modified):
-            self._read_again()
-        else:
+        reload = self._window.questions.reload_changed(self.name, modified=self.modified)
+        if not (reload and self._read_again()):  # what is shown may now be the only copy
             self._window.undo_stack.resetClean()
             self.changed.emit()
 
@@ -222,7 +237,9 @@ class Files(QObject):
         except FormatError as error:
             self._window.questions.tell_error(f"{self.name} cannot be read again", str(error))
             return False
+        playhead = self._window.session.playhead
         self.show_opened(opened)
+        self._window.session.playhead = playhead
         return True
 
     # --- common
@@ -231,7 +248,8 @@ class Files(QObject):
         self.path, self.name, self.format_name = path, name, format_name
         self._fingerprint = self._asked_about = fingerprint
         # What the file does not hold already is no news when it is saved there again.
-        self._accepted_losses = losses(self._window.document.clip, format_name, path or None)
+        self._opened_losses = losses(self._window.document.clip, format_name, path or None)
+        self._accepted_losses = self._opened_losses
         self.changed.emit()
 
     def _remember(self, path: str) -> None:

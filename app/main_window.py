@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from widgets.key_inspector import KeyInspector
     from widgets.soon import Soon
     from widgets.transport import Transport
+    from widgets.value_field import ValueField
 
 FIRST_SIZE = (1400, 860)
 
@@ -134,6 +135,24 @@ class MainWindow(QMainWindow):
         for name in ("file.save", "file.revert"):
             self.actions_by_id[name].refresh({})
 
+    def finish_entry(self) -> None:
+        """Keep what is being typed into a number field, wherever the keyboard is now."""
+        for field in self._fields_in_entry():
+            field.finish()
+
+    def take_back_entry(self) -> bool:
+        """Take back what is being typed into a number field; False when nothing is."""
+        fields = self._fields_in_entry()
+        for field in fields:
+            field.take_back()
+        return bool(fields)
+
+    def _fields_in_entry(self) -> "list[ValueField]":
+        from widgets.value_field import ValueField
+
+        panels = (self.inspector, self.transport)
+        return [field for panel in panels for field in panel.findChildren(ValueField) if field.editing]
+
     def cancel_gesture(self) -> None:
         """End what is being dragged or previewed as if it had not begun."""
         self.view.router.cancel()
@@ -141,9 +160,10 @@ class MainWindow(QMainWindow):
             self.document.gesture.cancel()
 
     def show_clip(self, clip: "Clip") -> None:
-        """Make *clip* the one that is edited; the history begins anew."""
+        """Make *clip* the one that is edited, with the playhead at its start; the history begins anew."""
         self.session.playing = False
         self.document.replace(clip)
+        self.session.playhead = clip.start
         self.session.active = clip.channels[0] if clip.channels else None
         self.view.frame_all()
 

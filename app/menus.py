@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QMenu, QToolBar, QToolButton
 from app.actions import ACTIONS
 from app.actions.row import Action, Need, Shortcut
 from widgets.theme import ICON_SIZE, Theme
-from widgets.value_field import finish_entry
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
@@ -62,7 +61,8 @@ class WindowAction(QAction):
 
     def run(self) -> None:
         """Do it, unless something it needs is missing or a drag is going on."""
-        finish_entry()
+        if self.row.keeps_entry:
+            self._window.finish_entry()
         self._window.look_at_hand()
         unmet = self.row.unmet_need(self._window)
         if unmet:

@@ -46,7 +46,7 @@ class Watcher(QObject):
         window.undo_stack.cleanChanged.connect(self._history_moved)
         window.files.changed.connect(window.refresh_title)
         window.view.hint_changed.connect(window.status.show_hint)
-        for panel in (window.tree, window.inspector, window.transport):
+        for panel in (window.view, window.tree, window.inspector, window.transport):
             panel.status.connect(window.say)
         window.tree.frame_requested.connect(self._frame)
         window.tree.view.selectionModel().selectionChanged.connect(self._something_changed)

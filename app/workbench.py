@@ -58,6 +58,8 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
     window.document, window.session = document, document.session
     if window.session.active is None and document.clip.channels:
         window.session.active = document.clip.channels[0]
+    if opened is not None:
+        window.session.playhead = document.clip.start
     for name in ("snap", "reorder", "loop"):
         setattr(window.session, name, getattr(window.settings, name))
     window.questions = Questions(window)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QPalette
-from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from model.expressions import ExpressionError, Formula
 from widgets.guard import guarded
@@ -229,10 +229,3 @@ def _step_size(modifiers: Qt.KeyboardModifier) -> float:
     if modifiers & Qt.KeyboardModifier.ShiftModifier:
         return 10.0
     return 0.1 if modifiers & Qt.KeyboardModifier.ControlModifier else 1.0
-
-
-def finish_entry() -> None:
-    """Keep what is being typed into a field now, so that something else can begin."""
-    field = QApplication.focusWidget()
-    if isinstance(field, ValueField):
-        field.finish()

@@ -11,8 +11,10 @@ if TYPE_CHECKING:
 
 
 def _undo(window: "MainWindow") -> None:
-    """Take back the last step; while something is dragged, that drag is what is taken back."""
-    if window.document.gesture is not None:
+    """Take back the last step; while something is dragged or typed, that is what is taken back."""
+    if window.take_back_entry():
+        window.say("What was typed is taken back")
+    elif window.document.gesture is not None:
         window.cancel_gesture()
         window.say("The drag was cancelled")
     else:
@@ -21,7 +23,7 @@ def _undo(window: "MainWindow") -> None:
 
 def _undo_label(window: "MainWindow") -> str:
     if window.document.gesture is not None:
-        return "&Undo Drag"
+        return "&Undo Drag" if window.view.router.busy else f"&Undo {escaped(window.document.gesture.label)}"
     return f"&Undo {escaped(window.undo_stack.undoText())}".rstrip()
 
 
@@ -55,6 +57,7 @@ EDIT_ACTIONS = (
         needs=(CAN_UNDO,),
         label_now=_undo_label,
         in_mid_drag=True,
+        keeps_entry=False,
     ),
     Action(
         id="edit.redo",

@@ -5,7 +5,11 @@ from PySide6.QtGui import QKeySequence
 from app.actions.row import Action, Need
 
 HAS_A_FILE = Need(lambda w: bool(w.files.path), "the clip has no file yet")
-HAS_CHANGES = Need(lambda w: w.files.modified or not w.files.path, "there is nothing to save")
+HAS_CHANGES = Need(
+    # A number that is being typed is kept before the clip is saved.
+    lambda w: w.files.modified or not w.files.path or w.document.gesture is not None,
+    "there is nothing to save",
+)
 DIFFERS_FROM_FILE = Need(lambda w: w.files.modified, "the clip is as it is in its file")
 
 

@@ -36,6 +36,7 @@ class Action:
     label_now: Callable[["MainWindow"], str] | None = None
     begins_group: bool = False  # a line above it in its menu
     in_mid_drag: bool = False  # may run while a gesture is open
+    keeps_entry: bool = True  # what is being typed into a number field is kept before it runs
 
     def unmet_need(self, window: "MainWindow") -> str:
         """Why it cannot run now; empty when it can."""

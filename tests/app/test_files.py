@@ -13,8 +13,10 @@ import app.files
 from app.file_menus import SAMPLES_FOLDER, RecentMenu, samples
 from app.main_window import MainWindow
 from app.questions import Answer
+from model.channel import Channel
 from model.clip import Clip
 from model.formats import read_clip, write_bytes
+from model.keyframe import make_run
 from model.saving import Durability, SaveError, SaveResult
 from tests.app.conftest import MakeWindow, answers_of, small_clip
 
@@ -130,6 +132,92 @@ def test_a_format_that_cannot_hold_the_clip_is_not_written_unasked(window: MainW
     change(window)
     assert window.save()
     assert answers.asked == []  # the same losses are not asked about twice
+
+
+def test_a_clip_that_its_file_cannot_hold_stays_unsaved_and_is_asked_about_on_closing(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    answers = answers_of(window)
+    answers.answers |= {"path_to_save": (str(tmp_path / "out.anim"), "anim"), "lossy_save": Answer.ANYWAY}
+    assert window.save_as()
+    assert window.files.path == str(tmp_path / "out.anim")
+    assert window.isWindowModified()
+    said = "Saved to out.anim without names, units; the clip still differs from the file"
+    assert window.status.message.text() == said
+    answers.asked.clear()
+    assert not window.close()
+    answers.answers |= {"save_changes": Answer.NATIVE, "path_to_save": (str(tmp_path / "out.hermite"), "hermite")}
+    assert window.close()
+    assert answers.asked == ["save_changes", "save_changes", "path_to_save"]
+    assert read_clip(tmp_path / "out.hermite").channels[0].name == "root.tx"
+
+
+def test_what_an_opened_file_lacked_from_the_start_is_no_change(window: MainWindow, tmp_path: Path) -> None:
+    course, skeleton = tmp_path / "walk.anim", tmp_path / "elsewhere.skel"
+    clip = Clip([Channel(f"c{number}", make_run([0.0, 1.0], [0.0, 1.0])) for number in range(6)])
+    course.write_bytes(write_bytes(clip, "anim"))
+    skeleton.write_bytes(SKELETON)
+    assert window.open_file(str(course), str(skeleton))
+    assert window.document.clip.channels[0].name == "root.tx"
+    change(window)
+    assert window.save()
+    assert not window.isWindowModified()
+    assert answers_of(window).asked == []
+
+
+def typed(window: MainWindow, text: str) -> None:
+    """Type a value without Enter, with the keyboard elsewhere when the next command comes."""
+    window.actions_by_id["edit.select_all"].run()
+    field = window.inspector.key.fields["value"]
+    field.setText(text)
+    field.textEdited.emit(text)
+
+
+def test_a_number_that_is_being_typed_is_saved_with_the_rest(opened: MainWindow, path: Path) -> None:
+    typed(opened, "7")
+    assert opened.actions_by_id["file.save"].isEnabled()
+    assert opened.save()
+    assert read_clip(path).channels[0].run()["value"].tolist() == [7.0] * 4
+
+
+def test_a_number_that_is_being_typed_is_not_thrown_away_unasked(opened: MainWindow, path: Path) -> None:
+    typed(opened, "7")
+    assert not opened.close()
+    assert answers_of(opened).asked == ["save_changes"]
+    assert opened.document.clip.channels[0].run()["value"].tolist() == [7.0] * 4
+
+
+def test_a_clip_whose_file_was_damaged_by_another_program_counts_as_unsaved(opened: MainWindow, path: Path) -> None:
+    path.write_text("hermite 1\ngarb")
+    answers_of(opened).answers["reload_changed"] = True
+    opened.files.look_at_disk()
+    assert "cannot be read again" in answers_of(opened).told[0]
+    assert opened.isWindowModified()
+    assert not opened.close()
+
+
+def test_a_file_that_may_not_be_written_is_left_alone(opened: MainWindow, path: Path) -> None:
+    before = path.read_bytes()
+    path.chmod(0o444)
+    change(opened)
+    assert not opened.save()
+    assert "read-only" in answers_of(opened).told[0]
+    assert path.read_bytes() == before
+    assert opened.isWindowModified()
+
+
+def test_another_file_is_opened_with_the_playhead_at_its_start_and_read_again_where_it_was(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    file = tmp_path / "late.hermite"
+    file.write_bytes(write_bytes(Clip([Channel("a", make_run([5.0], [1.0]))], start=5.0, end=6.0), "hermite"))
+    window.session.playhead = 0.7
+    assert window.open_file(str(file))
+    assert window.session.playhead == 5.0
+    window.session.playhead = 5.5
+    answers_of(window).answers["revert"] = True
+    assert window.files.revert()
+    assert window.session.playhead == 5.5
 
 
 def test_native_is_offered_instead_and_taken(

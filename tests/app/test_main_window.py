@@ -240,3 +240,18 @@ def test_an_empty_clip_opens(make_window: MakeWindow) -> None:
     assert window.session.active is None
     QTest.mouseClick(window.view.viewport(), LEFT, NONE, QPointF(window.view.plot_rect.center()).toPoint())
     assert window.undo_stack.count() == 0
+
+
+def test_an_unfinished_formula_is_what_undo_names_and_takes_back(window: MainWindow) -> None:
+    window.actions_by_id["edit.select_all"].run()
+    window.actions_by_id["key.up"].run()
+    field = window.inspector.key.fields["time"]
+    for text in ("+=1", "+=1*"):
+        field.setText(text)
+        field.textEdited.emit(text)
+    undo = window.actions_by_id["edit.undo"]
+    assert undo.text().startswith("&Undo Set the time of 6 keys")
+    undo.run()
+    assert window.status.message.text() == "What was typed is taken back"
+    assert (window.undo_stack.index(), field.editing) == (1, False)
+    assert window.document.gesture is None

@@ -17,7 +17,7 @@ from widgets.key_inspector import KeyInspector
 from widgets.numbers import DEGREES
 from widgets.scrub_label import ScrubLabel
 from widgets.theme import Theme
-from widgets.value_field import ValueField, finish_entry
+from widgets.value_field import ValueField
 
 Key = Qt.Key
 THIRD = 1 / 3
@@ -309,7 +309,7 @@ def test_typing_during_a_drag_is_refused(inspector, document):
 def test_a_command_can_keep_what_is_being_typed(inspector, document, edits):
     select(inspector, document, tx=[1])
     enter(inspector.key.fields["value"], "9", then=None)
-    finish_entry()
+    inspector.key.fields["value"].finish()
     assert document.gesture is None
     assert len(edits) == 1
 
