@@ -41,6 +41,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
 
     view_changed = Signal()
     hint_changed = Signal(str)
+    status = Signal(str)
 
     def __init__(self, document: Document, theme: Theme | None = None, parent: Any = None) -> None:
         super().__init__(parent=parent, background=None)
@@ -305,6 +306,10 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         for each in (before, preview):
             if each is not None and before != preview:
                 self.canvas.repaint_times(each[1], each[1], DOT + 4)
+
+    def say(self, text: str) -> None:
+        """Tell the user *text* in the status line."""
+        self.status.emit(text)
 
     def _repaint_boxes(self, *boxes: QRectF | None) -> None:
         for box in boxes:

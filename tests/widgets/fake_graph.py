@@ -80,5 +80,8 @@ class FakeGraph:
     def set_insert_preview(self, channel: Channel | None, time: float | None) -> None:
         self.shown["insert"] = (channel, time)
 
+    def say(self, text: str) -> None:
+        self.shown["said"] = text
+
     def viewport(self) -> QWidget:
         raise NotImplementedError

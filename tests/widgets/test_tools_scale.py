@@ -230,6 +230,39 @@ def test_retime_never_turns_the_order_round(desk: Desk) -> None:
     assert 0.0 < desk.low.key(5).time < 0.1
 
 
+def hint_at(desk: Desk, spot: tuple[float, float]) -> str:
+    desk.hand.move(beside(spot, 40, 200))
+    desk.hand.move(spot)
+    return desk.hints[-1]
+
+
+def test_the_scale_tool_says_what_a_drag_does_here(desk: Desk) -> None:
+    frame = begin(desk, "scale", 2, 3, 4)
+    assert hint_at(desk, handle(frame, 1, 0)).startswith("Scale · Drag: scale 3 keys about the edge across")
+    assert hint_at(desk, handle(frame, 1, -1)).startswith("Scale · Drag: scale 3 keys about the corner across")
+    assert hint_at(desk, desk.spot(desk.low, 2)).startswith("Scale · Drag: scale 3 keys about the middle")
+    assert hint_at(desk, desk.hand.spot_of(2.5, 1.7)).startswith("Scale · Drag: scale 3 keys about the middle")
+    assert hint_at(desk, desk.spot(desk.high, 2)).startswith("Scale · Drag: move 1 key")
+    assert hint_at(desk, desk.hand.spot_of(-0.5, 5.0)).startswith("Scale · Drag: select with a box")
+    desk.session.selection = Selection.NONE
+    assert hint_at(desk, desk.hand.spot_of(-0.5, 5.0)).startswith("Scale (select two keys or more) · Drag: select")
+
+
+def test_the_retime_tool_says_how_many_keys_it_takes_and_which_edge_stays(desk: Desk) -> None:
+    frame = begin(desk, "retime", 2, 3, 4)
+    three = "Retime · Drag: stretch 3 keys in time from the far edge, the"
+    assert hint_at(desk, handle(frame, 1, 0)).startswith(f"{three} left one")
+    assert hint_at(desk, handle(frame, -1, 0)).startswith(f"{three} right one")
+    assert hint_at(desk, desk.spot(desk.low, 4)).startswith(f"{three} left one")
+    assert hint_at(desk, desk.hand.spot_of(1.5, 6.0)).startswith(f"{three} right one")
+    desk.session.selection = Selection.NONE
+    all_keys = "Retime · Drag: stretch all 10 keys in time from the far edge, the"
+    assert hint_at(desk, desk.hand.spot_of(2.2, 6.0)).startswith(f"{all_keys} left one")
+    assert hint_at(desk, desk.hand.spot_of(1.8, 6.0)).startswith(f"{all_keys} right one")
+    desk.low.locked = True
+    assert "all 5 keys" in hint_at(desk, desk.hand.spot_of(2.2, 6.0))
+
+
 def test_every_tool_of_the_table_can_be_chosen_and_says_what_it_does(desk: Desk) -> None:
     desk.session.selection = Selection.of_all([desk.low])
     for name, row in TOOLS.items():

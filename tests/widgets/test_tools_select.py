@@ -193,9 +193,12 @@ def test_a_locked_key_is_not_taken_and_the_hint_says_so(desk: Desk) -> None:
     spot = desk.spot(desk.low, 2)
     desk.hand.move(spot)
     assert "low is locked" in desk.hints[-1]
+    said: list[str] = []
+    desk.view.status.connect(said.append)
     desk.hand.drag(spot, beside(spot, 40, 40))
     assert desk.keys() == before
     assert not desk.session.selection.contains(desk.low, 2)
+    assert said == ["low is locked"]
     desk.hand.click(spot)
     assert desk.session.active is desk.low
     assert not desk.session.selection

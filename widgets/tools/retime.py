@@ -7,8 +7,8 @@ from PySide6.QtCore import QRectF, Qt
 from model.labels import counted
 from model.selection import Selection
 from widgets.hit_test import Hit
-from widgets.tools.base import Cursor, Drag, Modifier, Point
-from widgets.tools.scale import MIN_FACTOR, PADDING, Bounds, ScaleKeys, ScaleTool
+from widgets.tools.base import Cursor, Drag, Point
+from widgets.tools.scale import MIN_FACTOR, PADDING, SIDES, Bounds, ScaleKeys, ScaleTool
 
 
 class RetimeKeys(ScaleKeys):
@@ -31,6 +31,7 @@ class RetimeTool(ScaleTool):
     """Works on the selected keys, or on all shown ones if fewer than two are selected."""
 
     drag_class = RetimeKeys
+    wanting = "there are no two keys to stretch"
 
     def keys(self) -> Selection:
         """The selected keys that may be edited, or all that are shown."""
@@ -60,9 +61,22 @@ class RetimeTool(ScaleTool):
         pivot = bounds.at((-1, 0)) if later else bounds.at((1, 0))
         return self.drag_class(self.graph, start, self.keys(), pivot, grip, (True, False))
 
-    def hints(self, hit: Hit, modifiers: Qt.KeyboardModifier) -> str:
-        """What the brackets do."""
-        if hit.kind == "frame" or (hit.kind == "key" and not modifiers & Modifier.ShiftModifier):
-            count = counted(self.keys().count, "key")
-            return f"Drag: stretch {count} in time about the other end · Ctrl: no snap · Alt: fine"
-        return super().hints(hit, modifiers)
+    def stretch_hint(self, hit: Hit, bounds: Bounds) -> str:
+        """What a drag of a bracket, of a key or of the ground between them does: the nearer end follows."""
+        if hit.kind == "frame":
+            later = SIDES[hit.id][0] > 0
+        else:
+            time = hit.time if hit.kind == "key" or self._under is None else self._under.time
+            later = time >= bounds.center[0]
+        return f"Drag: stretch {self._keys_text(hit)} in time from the far edge, the {'left' if later else 'right'} one"
+
+    def _keys_text(self, hit: Hit) -> str:
+        """How many keys a press on *hit* and a drag would stretch."""
+        chosen = super().keys()
+        chooses_anew = (
+            hit.kind == "key" and hit.channel is not None and not self.session.selection.contains(hit.channel, hit.id)
+        )
+        if chosen.count > 1 and not chooses_anew:
+            return counted(chosen.count, "key")
+        shown = self.session.shown_channels(self.graph.document.clip)
+        return f"all {counted(sum(len(channel) for channel in shown if not channel.locked), 'key')}"

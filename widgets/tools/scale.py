@@ -1,6 +1,6 @@
 """ScaleTool: a box around the selected keys whose edges and corners stretch them in time and value."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from math import copysign, hypot
 from typing import ClassVar, NamedTuple
 
@@ -113,12 +113,14 @@ class ScaleKeys(EditDrag):
 class ScaleTool(SelectTool):
     """Selects like the select tool; its box, and the keys and the ground inside it, stretch the selected keys."""
 
-    drag_class: ClassVar[Callable[..., ScaleKeys]] = ScaleKeys
+    drag_class: ClassVar[type[ScaleKeys]] = ScaleKeys
+    wanting: ClassVar[str] = "select two keys or more"
 
     def __init__(self, graph: Graph) -> None:
         super().__init__(graph)
         self._shown = False
         self._inside = False
+        self._under: Point | None = None  # the pointer, while a drag from it would stretch the keys
         self._stamp: tuple[object, ...] = ()
         self._extent: Bounds | None = None
 
@@ -156,9 +158,13 @@ class ScaleTool(SelectTool):
 
     def press(self, point: Point) -> bool:
         """A press on the box keeps the selection; inside it the select tool's clicks go on working."""
-        frame = self.frame()
-        self._inside = frame is not None and frame[1].contains(point.x, point.y) and not point.ctrl
+        self._inside = self._covers(point)
         return super().press(point)
+
+    def _covers(self, point: Point) -> bool:
+        """Whether *point* is on ground that stretches the keys."""
+        frame = self.frame()
+        return frame is not None and frame[1].contains(point.x, point.y) and not point.ctrl
 
     def drag_from(self, start: Point) -> Drag:
         """The box, a key and the ground inside the box stretch the keys; anything else is as in the select tool."""
@@ -197,12 +203,34 @@ class ScaleTool(SelectTool):
         return super().hit(point)
 
     def hints(self, hit: Hit, modifiers: Qt.KeyboardModifier) -> str:
-        """What the box does."""
+        """The tool's name, and what a drag from here does with it."""
+        name, frame = self.drag_class.verb, self.frame()
+        locked = hit.channel is not None and hit.channel.locked
+        if frame is None:
+            return f"{name} ({self.wanting}) · {super().hints(hit, modifiers)}"
+        if locked or hit.is_handle or (hit.kind not in ("frame", "key") and self._under is None):
+            return f"{name} · {super().hints(hit, modifiers)}"
+        return f"{name} · {self.stretch_hint(hit, frame[0])} · Ctrl: no snap · Alt: fine"
+
+    def stretch_hint(self, hit: Hit, bounds: Bounds) -> str:
+        """What a drag of the box, of a key or of the ground inside does."""
+        keys = counted(self.keys().count, "key")
         if hit.kind == "frame":
-            return "Drag: scale about the other side · Shift: one axis · Ctrl: no snap · Alt: fine"
-        if hit.kind == "key" and self.session.selection.count > 1:
-            return f"Drag: scale {counted(self.session.selection.count, 'key')} about the middle · Shift+click: toggle"
-        return super().hints(hit, modifiers)
+            corner = all(SIDES[hit.id])
+            return f"Drag: scale {keys} about the {'corner' if corner else 'edge'} across · Shift: one axis"
+        if hit.kind == "key" and hit.channel is not None and not self.session.selection.contains(hit.channel, hit.id):
+            return "Drag: move 1 key · Shift+click: add it to what is scaled"
+        return f"Drag: scale {keys} about the middle · Shift: one axis"
+
+    def hover(self, point: Point) -> None:
+        """Remember whether a drag of the ground would stretch the keys."""
+        self._under = point if self._covers(point) else None
+        super().hover(point)
+
+    def leave(self) -> None:
+        """Nothing is under the pointer."""
+        self._under = None
+        super().leave()
 
     def cursor(self, hit: Hit, modifiers: Qt.KeyboardModifier) -> Qt.CursorShape:
         """Arrows in the direction of the handle."""

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 
 from model.channel import Channel
 from model.keyframe import Keyframe
-from model.labels import counted
+from model.labels import counted, short_name
 from model.selection import Selection
 from widgets.graph import Graph
 from widgets.hit_test import EMPTY, Hit, hit_all
@@ -53,6 +53,8 @@ class SelectTool(Tool):
             pass  # a part of what a tool of another kind draws around the keys
         elif found.channel.locked:
             self._on_click = self._activate
+            if found.kind == "key":
+                self.graph.say(f"{short_name(found.channel)} is locked")
         elif found.kind == "key":
             self._press_key(point, found.channel, found.id)
         elif found.kind == "curve":
