@@ -158,38 +158,32 @@ def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) ->
         edges = np.sort(np.stack(((top - y0) / down, (bottom - y0) / down)), axis=0)
     near = np.where(down, np.clip(edges[0], 0.0, length), 0.0)
     far = np.where(down, np.clip(edges[1], 0.0, length), length)
-    return _cut(pattern, x0 - across * start, y0 - down * start, across, down, start + near, start + far)
+    return _cut(pattern, x0 - across * start, y0 - down * start, across, down, start + near, start + far)[0]
 
 
-def straight_dashes(
-    x: float, y: float, slope: float, seen: tuple[float, float], pattern: tuple[float, ...], anchor: float
-) -> Floats:
-    """As `dashes`, of the line through x, y that falls by *slope* a pixel, in the columns *seen*.
+def straight_dashes(rays: Floats, dash: float, gap: float, anchor: float) -> list[Floats]:
+    """As `dashes`, of each of the straight *rays* (n, 5): through x, y, falling by a slope, from column to column.
 
     The pattern is counted from x = *anchor*: a key that is set on the line moves no dash.
     """
-    stretch = float(np.hypot(1.0, slope))
-    begin = seen[0] - (seen[0] - anchor) % (sum(pattern) / stretch)
-    columns = (
-        begin,
-        y + (begin - x) * slope,
-        1 / stretch,
-        slope / stretch,
-        *((edge - begin) * stretch for edge in seen),
-    )
-    return _cut(pattern, *(np.array([number]) for number in columns))
+    x, y, slope, low, high = rays.T
+    stretch = np.hypot(1.0, slope)
+    begin = low - (low - anchor) % ((dash + gap) / stretch)
+    near, far = (low - begin) * stretch, (high - begin) * stretch
+    pieces, ray = _cut((dash, gap), begin, y + (begin - x) * slope, 1 / stretch, slope / stretch, near, far)
+    return np.split(pieces, np.searchsorted(ray, np.arange(1, len(rays))))
 
 
 def _cut(
     pattern: tuple[float, ...], x: Floats, y: Floats, across: Floats, down: Floats, near: Floats, far: Floats
-) -> Floats:
-    """The drawn parts between distances *near* and *far* of the rays from x, y."""
+) -> tuple[Floats, NDArray[np.intp]]:
+    """The drawn parts between distances *near* and *far* of the rays from x, y, and which ray each is of."""
     period = float(sum(pattern))
     turn = np.floor(near / period)
     count = np.maximum(np.floor(far / period) - turn + 1, 0).astype(np.intp)
     ray = np.repeat(np.arange(len(x)), count)
     begin = (turn[ray] + np.arange(len(ray)) - np.repeat(np.cumsum(count) - count, count)) * period
-    pieces = []
+    pieces, owners = [], []
     offset = 0.0
     for drawn, gap in zip(pattern[::2], pattern[1::2], strict=True):
         s0 = np.maximum(begin + offset, near[ray])
@@ -198,5 +192,6 @@ def _cut(
         of, s0, s1 = ray[some], s0[some], s1[some]
         ends = (x[of] + across[of] * s0, y[of] + down[of] * s0, x[of] + across[of] * s1, y[of] + down[of] * s1)
         pieces.append(np.stack(ends, axis=1))
+        owners.append(of)
         offset += drawn + gap
-    return np.concatenate(pieces)
+    return np.concatenate(pieces), np.concatenate(owners)

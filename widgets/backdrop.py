@@ -149,18 +149,18 @@ class Backdrop:
         if shown == window:
             painter.drawPixmap(QPointF(window.left, window.top), pixmap)
             return
-        for layer in LAYERS:
-            if layer.plane is Plane.GROUND:
-                layer.draw(painter, stage, (), window.left, window.right)
         target = QRectF(
             QPointF(window.x_from_time(shown.t0), window.y_from_value(shown.v1)),
             QPointF(window.x_from_time(shown.t1), window.y_from_value(shown.v0)),
         )
         fx, fy = target.width() / pixmap.width(), target.height() / pixmap.height()
-        if not 1 / MOST_SCALED < fx < MOST_SCALED or not 1 / MOST_SCALED < fy < MOST_SCALED:
-            return
+        telling = 1 / MOST_SCALED < fx < MOST_SCALED and 1 / MOST_SCALED < fy < MOST_SCALED
+        if not telling or not target.contains(stage.plot()):
+            for layer in LAYERS:
+                if layer.plane is Plane.GROUND:
+                    layer.draw(painter, stage, (), window.left, window.right)
         seen = target.intersected(stage.plot())
-        if not seen.isEmpty():
+        if telling and not seen.isEmpty():
             source = QRectF(
                 (seen.left() - target.left()) / fx,
                 (seen.top() - target.top()) / fy,

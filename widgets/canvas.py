@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 # How far, in logical pixels, a key's mark and handles reach beside the curve.
 REACH: Final = LENGTH + 2 * KNOB + 4
+# While the view moves, the picture goes on being refined only so often, in ms.
+PAUSE: Final = 20
 
 
 class Canvas(QGraphicsItem):
@@ -52,6 +54,7 @@ class Canvas(QGraphicsItem):
         self._ticks: tuple[Window, bool, tuple[Ticks, Ticks]] | None = None
         self._selection: Selection | None = None
         self._playhead = document.session.playhead
+        self._moving = False
         self._timer = QTimer(view)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._refine)
@@ -102,7 +105,7 @@ class Canvas(QGraphicsItem):
         finally:
             painter.restore()
         if self.backdrop.busy and not self._timer.isActive():
-            self._timer.start(0)
+            self._timer.start(PAUSE if self._moving else 0)
 
     def _paint(self, painter: QPainter, stage: Stage, exposed: QRectF) -> None:
         window, plot = stage.window, stage.plot()
@@ -166,6 +169,9 @@ class Canvas(QGraphicsItem):
     def reframe(self) -> None:
         """The window onto time and value has changed."""
         self._stage = None
+        if self._timer.isActive() and not self._timer.interval():
+            self._timer.start(PAUSE)
+        self._moving = True
         self.repaint_all()
 
     def forget(self) -> None:
@@ -182,6 +188,7 @@ class Canvas(QGraphicsItem):
                 self.backdrop.prepare(self._stage)
 
     def _refine(self) -> None:
+        self._moving = False
         if self._stage is None or not self.backdrop.busy:
             return
         if self.backdrop.refine(self.stage(self._stage.window.unit)):

@@ -61,7 +61,7 @@ def draw_lines(painter: QPainter, lines: Floats, width: int = 1) -> None:
     if not len(lines):
         return
     for dx, dy in STROKES[width]:
-        moved = np.ascontiguousarray(lines + np.array((dx, dy, dx, dy)))
+        moved = lines + np.array((dx, dy, dx, dy)) if dx or dy else np.ascontiguousarray(lines)
         painter.drawLines(_first(moved, QLineF), len(moved))
 
 

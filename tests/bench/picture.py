@@ -82,6 +82,7 @@ def shown(stack: QStackedWidget, clip: Clip, keys_in_view: int | None) -> Shown:
 
 def settle(view: CurveView) -> None:
     """Let everything be painted that is still to be painted."""
+    QApplication.processEvents()
     view.canvas.settle()
     for _ in range(5):
         QApplication.processEvents()

@@ -206,12 +206,13 @@ def test_dashes_begin_anew_at_every_key_so_that_edits_move_none_beside_them() ->
 def test_a_line_of_a_million_pixels_costs_no_million_dashes() -> None:
     line = Line(np.array([0.0, 1.0]), np.array([-FAR, FAR]), np.zeros(2, np.intp))
     assert len(dashes(line, (3.0, 4.0), 0.0, 900.0)) == pytest.approx(900 / 7, abs=2)
-    assert len(straight_dashes(0.0, 0.0, 0.5, (1e6, 1e6 + 100), (3.0, 4.0), 0.0)) == pytest.approx(112 / 7, abs=2)
+    (pieces,) = straight_dashes(np.array([[0.0, 0.0, 0.5, 1e6, 1e6 + 100]]), 3.0, 4.0, 0.0)
+    assert len(pieces) == pytest.approx(112 / 7, abs=2)
 
 
 def test_a_key_set_on_a_straight_line_moves_none_of_its_dashes() -> None:
-    pieces = straight_dashes(100.0, 50.0, 0.75, (100.0, 180.0), (3.0, 4.0), 13.0)
-    later = straight_dashes(140.0, 80.0, 0.75, (140.0, 180.0), (3.0, 4.0), 13.0)
+    rays = np.array([[100.0, 50.0, 0.75, 100.0, 180.0], [140.0, 80.0, 0.75, 140.0, 180.0]])
+    pieces, later = straight_dashes(rays, 3.0, 4.0, 13.0)
     assert (pieces[:, 1] - 50) == pytest.approx((pieces[:, 0] - 100) * 0.75)
     assert np.hypot(*(pieces[1:-1, 2:] - pieces[1:-1, :2]).T) == pytest.approx(3.0)
     assert pieces[pieces[:, 0] > 140] == pytest.approx(later[later[:, 0] > 140])

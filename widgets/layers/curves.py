@@ -29,7 +29,9 @@ def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
         lined = []
         for trace in group:
             if len(trace.channel) > 1 and not _drawn_crowded(painter, window, trace, trace.color, x0, x1):
-                lined.append((trace, trace.channel.spans_between(t0, t1)))
+                spans = trace.channel.spans_between(t0, t1)
+                if len(spans.time0):
+                    lined.append((trace, spans))
         lines = lines_through([spans for _, spans in lined], window, TOLERANCE if soft else THICKET)
         for (trace, _), line in zip(lined, lines, strict=True):
             draw_line(painter, window, line, trace, trace.color, trace.pixels(window.unit), trace.dash)

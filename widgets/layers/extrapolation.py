@@ -3,17 +3,21 @@
 from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter
 
 from model.channel import Spans
-from model.keyframe import Keyframe
 from model.lines import HUGE, line_through, straight_dashes
-from model.sampling import slope_outside, spans_outside
+from model.sampling import Window, slope_outside, spans_outside
 from widgets.layers.curves import REACH, draw_columns, draw_line
 from widgets.painting import draw_lines, hair
 from widgets.stage import Stage
 from widgets.traces import Trace
+
+type Floats = NDArray[np.float64]
+type Ray = tuple[float, float, float, float, float]
 
 DASH: Final = (3.0, 4.0)
 # How many pixel columns are drawn, and then left out, where repeats are too dense for dashes.
@@ -23,6 +27,8 @@ STRIPES: Final = 4.0
 def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """Both sides of each trace between *x0* and *x1*."""
     window = stage.window
+    sides: list[tuple[Trace, bool, float, float]] = []
+    rays: dict[int, Ray] = {}
     for trace in traces:
         for after, end in ((False, trace.channel.first), (True, trace.channel.last)):
             if end is None:
@@ -32,35 +38,43 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
             if low > high:
                 continue
             slope = slope_outside(trace.channel, after=after)
-            if slope is None:
-                _draw_repeats(painter, stage, trace, low, high, after=after)
-            else:
+            if slope is not None:
                 seen = (max(x0 - REACH, edge), x1 + REACH) if after else (x0 - REACH, min(x1 + REACH, edge))
-                _draw_straight(painter, stage, trace, slope, end, seen)
+                ray = _ray(window, slope, edge, end.value, seen)
+                if ray is None:
+                    continue
+                rays[len(sides)] = ray
+            sides.append((trace, after, low, high))
+    # Cut together, as nearly all work on a few dashes is fixed; painted in turn, so that the same ones lie on top.
+    dash, gap = (part * window.unit for part in DASH)
+    cut = straight_dashes(np.array(list(rays.values())), dash, gap, window.x_from_time(0.0)) if rays else []
+    lines = dict(zip(rays, cut, strict=True))
+    for i, (trace, after, low, high) in enumerate(sides):
+        if i in lines:
+            _draw_straight(painter, stage, trace, lines[i])
+        else:
+            _draw_repeats(painter, stage, trace, low, high, after=after)
 
 
-def _draw_straight(
-    painter: QPainter, stage: Stage, trace: Trace, slope: float, end: Keyframe, seen: tuple[float, float]
-) -> None:
-    """The line through the end key with this slope, between two columns."""
-    window = stage.window
+def _ray(window: Window, slope: float, x: float, value: float, seen: tuple[float, float]) -> Ray | None:
+    """The line through x, value with this slope as (x, y, fall, low, high) in pixels; None if nobody sees it."""
     fall = min(max(-slope * (window.px_per_value / window.px_per_second), -HUGE), HUGE)
-    x, y = window.x_from_time(end.time), min(max(window.y_from_value(end.value), -HUGE), HUGE)
+    y = min(max(window.y_from_value(value), -HUGE), HUGE)
     low, high = seen
     if fall:
         edges = sorted(x + (edge - y) / fall for edge in (window.top - REACH, window.bottom + REACH))
         low, high = max(low, edges[0]), min(high, edges[1])
     elif not window.top - REACH <= y <= window.bottom + REACH:
-        return
-    if high <= low:
-        return
+        return None
+    return (x, y, fall, low, high) if low < high else None
+
+
+def _draw_straight(painter: QPainter, stage: Stage, trace: Trace, lines: Floats) -> None:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
     pen = hair(trace.faint)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(pen)
-    pattern = tuple(part * window.unit for part in DASH)
-    lines = straight_dashes(x, y, fall, (low, high), pattern, window.x_from_time(0.0))
-    draw_lines(painter, lines, _thickness(trace, window.unit))
+    draw_lines(painter, lines, _thickness(trace, stage.window.unit))
 
 
 def _draw_repeats(painter: QPainter, stage: Stage, trace: Trace, x0: float, x1: float, *, after: bool) -> None:

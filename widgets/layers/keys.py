@@ -10,6 +10,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPixmap, QPolygonF
 
 from model.channel import Channel
+from model.document import Change, Splice
 from model.keyframe import Run, TangentRule
 from model.sampling import FAR
 from widgets.painting import draw_marks
@@ -107,13 +108,21 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
 def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """The keys that the gesture under way hides: they come back if it moves on."""
     gesture = stage.document.gesture
-    if gesture is None:
+    if gesture is None or all(map(_keeps_keys, gesture.changes)):
         return
     for channel, run in gesture.covered.items():
         if stage.trace_of(channel) is not None:
             painter.setOpacity(0.6)
             _draw_run(painter, stage, run, stage.theme.ghost, stage.px(REST))
             painter.setOpacity(1.0)
+
+
+def _keeps_keys(change: Change) -> bool:
+    """Whether the same keys are there as before, in whatever order: so in most steps of most drags, and soon told."""
+    if not isinstance(change, Splice):
+        return True
+    before, after = change.before["id"], change.after["id"]
+    return len(before) == len(after) and bool((np.sort(before) == np.sort(after)).all())
 
 
 def selected_between(channel: Channel, ids: NDArray[np.int64], t0: float, t1: float) -> Run:

@@ -88,11 +88,11 @@ def hint_of(stage: Stage) -> str:
     traces = (*stage.live, *stage.resting)
     if not traces:
         return "All channels are hidden\nAlt+H shows them again"
-    with_keys = [trace for trace in traces if len(trace.channel)]
-    if not with_keys:
-        return "No keys yet\nCtrl+click sets one, S keys all shown channels at the playhead"
-    if any(_seen(trace.channel, window) for trace in with_keys):
+    # The first curve in view ends the search: a drag asks this at every step.
+    if any(len(trace.channel) and _seen(trace.channel, window) for trace in traces):
         return ""
+    if not any(len(trace.channel) for trace in traces):
+        return "No keys yet\nCtrl+click sets one, S keys all shown channels at the playhead"
     return "Nothing in view\nPress A to see all"
 
 
