@@ -282,6 +282,8 @@ class MouseRouter(QObject):
         tool = self.strokes.tool
         if self.strokes.state is not State.DRAGGING or tool is None or tool.current is None or self._pointer is None:
             return 0.0, 0.0
+        if self._modifiers & Modifier.AltModifier:  # at a tenth of the speed what is dragged would be left behind
+            return 0.0, 0.0
         return edge_push(self.graph.plot_rect, self.strokes.start, self._pointer[0], tool.current.scrolls)
 
     def _watch_edge(self) -> None:
@@ -295,7 +297,7 @@ class MouseRouter(QObject):
     def _scroll(self) -> None:
         dx, dy = self._push()
         if dx or dy:
-            self.graph.pan_pixels(-dx, -dy)
+            self.graph.pan_pixels(-dx * EDGE_INTERVAL / 1000, -dy * EDGE_INTERVAL / 1000)
             self._again()
         else:
             self._edge.stop()

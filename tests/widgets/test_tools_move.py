@@ -1,5 +1,7 @@
 """Moving keys and spans with the mouse, on a real view."""
 
+from time import perf_counter
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -291,6 +293,37 @@ def test_the_view_scrolls_while_a_drag_is_held_at_its_edge(desk: Desk) -> None:
     assert desk.view.view_range == stopped
     desk.hand.key(Qt.Key.Key_Escape)
     assert desk.low.key(5).time == 4.0
+
+
+def test_the_view_scrolls_so_slowly_at_its_edge_that_a_hand_can_stop_it(desk: Desk) -> None:
+    spot = desk.spot(desk.low, 5)
+    desk.hand.press(spot)
+    desk.hand.move((desk.view.plot_rect.right() + 3000.0, spot[1]))
+    before, began = desk.view.view_range, perf_counter()
+    QTest.qWait(250)
+    passed = perf_counter() - began
+    plots = (desk.view.view_range.t0 - before.t0) / (before.t1 - before.t0)
+    assert 0.0 < plots <= 0.5 * (passed + 0.05)
+    desk.hand.release()
+
+
+def test_the_view_does_not_leave_behind_a_key_that_alt_slows_down(desk: Desk) -> None:
+    before = desk.view.view_range
+    spot = desk.spot(desk.low, 3)
+    edge = (desk.view.plot_rect.right() + 20.0, spot[1])
+    desk.hand.press(spot)
+    desk.hand.move(beside(spot, 20), ALT)
+    desk.hand.move(edge, ALT)
+    QTest.qWait(80)
+    assert desk.view.view_range == before
+    desk.hand.move(edge)
+    QTest.qWait(80)
+    assert desk.view.view_range.t0 > before.t0
+    desk.hand.move(beside(spot, 100))
+    stopped = desk.view.view_range
+    QTest.qWait(60)
+    assert desk.view.view_range == stopped
+    desk.hand.release()
 
 
 @pytest.mark.parametrize(("key", "view"), [(5, ViewRange(-1.0, 4.004, -5.0, 15.0)), (1, ViewRange(-0.004, 5, -5, 15))])

@@ -16,9 +16,10 @@ MAX_UNITS = 1200.0
 ZOOM_PER_PIXEL = 1.01
 MAX_PIXELS = 1000.0
 
+# The edge of the view begins so many pixels inside it, and pushes the harder the further out the pointer is.
 EDGE_MARGIN = 12.0
-EDGE_GAIN = 0.25
-EDGE_MAX = 40.0
+EDGE_REACH = 48.0  # pixels beyond where it begins, from which on it pushes no harder
+EDGE_SPEED = 0.5  # of the plot's width or height, in a second: the hand must be able to stop in time
 
 
 class Pan:
@@ -183,7 +184,7 @@ def pinched(graph: Graph, event: QNativeGestureEvent) -> bool:
 
 
 def edge_push(plot: QRectF, start: Point, spot: QPointF, scrolls: Axes) -> tuple[float, float]:
-    """Pixels by which the view is to follow a drag held at its edge, this time; a drag begun there does not push."""
+    """Pixels in a second by which the view is to follow a drag held at its edge; a drag begun there does not push."""
     time, value = scrolls
     return (
         _push(spot.x(), start.x, plot.left(), plot.right()) if time else 0.0,
@@ -195,4 +196,4 @@ def _push(at: float, start: float, low: float, high: float) -> float:
     low_edge = max(low, min(low + EDGE_MARGIN, start))
     high_edge = min(high, max(high - EDGE_MARGIN, start))
     beyond = min(at - low_edge, 0.0) + max(at - high_edge, 0.0)
-    return max(-EDGE_MAX, min(EDGE_MAX, beyond * EDGE_GAIN))
+    return max(-1.0, min(1.0, beyond / EDGE_REACH)) * EDGE_SPEED * (high - low)
