@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu
+from PySide6.QtWidgets import QApplication, QDockWidget, QLineEdit, QMainWindow, QMenu
 
 from app.settings import Settings
 from widgets.guard import guarded
@@ -136,9 +136,11 @@ class MainWindow(QMainWindow):
             self.actions_by_id[name].refresh({})
 
     def finish_entry(self) -> None:
-        """Keep what is being typed into a number field, wherever the keyboard is now."""
+        """Keep what is being typed into the panels, wherever the keyboard is now."""
         for field in self._fields_in_entry():
             field.finish()
+        for line in self._names_in_entry():
+            line.editingFinished.emit()
 
     def take_back_entry(self) -> bool:
         """Take back what is being typed into a number field; False when nothing is."""
@@ -146,6 +148,17 @@ class MainWindow(QMainWindow):
         for field in fields:
             field.take_back()
         return bool(fields)
+
+    @property
+    def in_entry(self) -> bool:
+        """Whether something is being typed into the panels that is neither kept nor taken back yet."""
+        return bool(self._fields_in_entry() or self._names_in_entry())
+
+    def _names_in_entry(self) -> "list[QLineEdit]":
+        from widgets.value_field import ValueField
+
+        lines = self.inspector.findChildren(QLineEdit)
+        return [line for line in lines if line.isModified() and not isinstance(line, ValueField)]
 
     def _fields_in_entry(self) -> "list[ValueField]":
         from widgets.value_field import ValueField

@@ -14,11 +14,13 @@ WIDTH_FOR_WORDS = 620
 class ElidedLabel(QLabel):
     """One line of plain text that gives up its end, marked by …, when there is no room; the tooltip has all of it."""
 
-    def __init__(self, align: Qt.AlignmentFlag, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, align: Qt.AlignmentFlag, *, yields: bool) -> None:
+        """One that *yields* takes what the others leave; else it asks for as much as its text needs."""
+        super().__init__()
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setAlignment(align | Qt.AlignmentFlag.AlignVCenter)
-        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        across = QSizePolicy.Policy.Ignored if yields else QSizePolicy.Policy.Preferred
+        self.setSizePolicy(across, QSizePolicy.Policy.Preferred)
 
     @guarded(QSize(0, 0))
     def minimumSizeHint(self) -> QSize:
@@ -40,29 +42,30 @@ class StatusRow(QWidget):
         """*width* is what it will have at first, so that the first picture is not laid out twice."""
         super().__init__()
         self._transport = transport
-        self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft)
+        self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft, yields=False)
         self.message.setObjectName("message")
         self.message.setAccessibleName("Message")
         self.message.hide()  # what is empty leaves its room to the others
         self.selection = QLabel()
         self.selection.setObjectName("selection_summary")
         self.selection.setTextFormat(Qt.TextFormat.PlainText)
-        self.hint = ElidedLabel(Qt.AlignmentFlag.AlignRight)
+        self.hint = ElidedLabel(Qt.AlignmentFlag.AlignRight, yields=True)
         self.hint.setObjectName("mouse_hint")
         self.hint.setAccessibleName("What the mouse does here")
         self.hint.hide()
         self._line = line = QHBoxLayout()
         line.setContentsMargins(8, 0, 8, 0)
         line.setSpacing(16)
-        line.addWidget(self.message, 2)
+        line.addWidget(self.message)
         line.addWidget(self.selection)
-        line.addWidget(self.hint, 3)
+        line.addWidget(self.hint, 1)
         self._rows = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setSpacing(2)
         self._rows.addWidget(transport)
         self._rows.addLayout(line, 1)
         self._arrange(width)
+        self._tip = self._mouse_hint = ""
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._clear_message)
@@ -100,13 +103,18 @@ class StatusRow(QWidget):
         self.say("")
 
     def show_tip(self, text: str) -> None:
-        """Show what the menu entry under the mouse does, as long as it is under it."""
-        self.say(text, 0)
+        """Show what the menu entry or button under the mouse does, in the place of what the mouse does elsewhere."""
+        self._tip = text
+        self._show_words_of_mouse()
 
     def show_hint(self, text: str) -> None:
         """Say what the mouse does where it is."""
-        self.hint.setText(text)
-        self.hint.setVisible(bool(text))
+        self._mouse_hint = text
+        self._show_words_of_mouse()
+
+    def _show_words_of_mouse(self) -> None:
+        self.hint.setText(self._tip or self._mouse_hint)
+        self.hint.setVisible(bool(self.hint.text()))
         self._place_selection()
 
     def show_selection(self, text: str) -> None:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QLineEdit
 from shiboken6 import isValid
 
 from model.channel import Channel
@@ -48,6 +49,8 @@ class Watcher(QObject):
         window.view.hint_changed.connect(window.status.show_hint)
         for panel in (window.view, window.tree, window.inspector, window.transport):
             panel.status.connect(window.say)
+        for line in window.inspector.findChildren(QLineEdit):
+            line.textEdited.connect(self._typed)
         window.tree.frame_requested.connect(self._frame)
         window.tree.view.selectionModel().selectionChanged.connect(self._something_changed)
         window.statusBar().messageChanged.connect(window.status.show_tip)
@@ -75,12 +78,14 @@ class Watcher(QObject):
             self._window
         ):  # previews change nothing that an action asks about
             self._in_gesture = in_gesture
-            for name in ("edit.undo", "file.save"):
-                self._window.actions_by_id[name].refresh({})
+            self._window.actions_by_id["edit.undo"].refresh({})
 
     def _committed(self, edit: Edit) -> None:
         if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen
             self._window.say(edit.label)
+
+    def _typed(self, _text: str) -> None:
+        self._window.actions_by_id["file.save"].refresh({})
 
     def _history_moved(self, *_place: object) -> None:
         self.refresh()

@@ -6,8 +6,8 @@ from app.actions.row import Action, Need
 
 HAS_A_FILE = Need(lambda w: bool(w.files.path), "the clip has no file yet")
 HAS_CHANGES = Need(
-    # A number that is being typed is kept before the clip is saved.
-    lambda w: w.files.modified or not w.files.path or w.document.gesture is not None,
+    # What is being typed is kept before the clip is saved.
+    lambda w: w.files.modified or not w.files.path or w.in_entry,
     "there is nothing to save",
 )
 DIFFERS_FROM_FILE = Need(lambda w: w.files.modified, "the clip is as it is in its file")

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -185,6 +186,15 @@ def test_a_number_that_is_being_typed_is_not_thrown_away_unasked(opened: MainWin
     assert not opened.close()
     assert answers_of(opened).asked == ["save_changes"]
     assert opened.document.clip.channels[0].run()["value"].tolist() == [7.0] * 4
+
+
+def test_a_name_that_is_being_typed_is_saved_too(opened: MainWindow, path: Path) -> None:
+    name = opened.inspector.channel.name
+    name.clear()
+    QTest.keyClicks(name, "hip.tx")
+    assert opened.actions_by_id["file.save"].isEnabled()
+    opened.actions_by_id["file.save"].run()
+    assert read_clip(path).channels[0].name == "hip.tx"
 
 
 def test_a_clip_whose_file_was_damaged_by_another_program_counts_as_unsaved(opened: MainWindow, path: Path) -> None:

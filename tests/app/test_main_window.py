@@ -255,3 +255,27 @@ def test_an_unfinished_formula_is_what_undo_names_and_takes_back(window: MainWin
     assert window.status.message.text() == "What was typed is taken back"
     assert (window.undo_stack.index(), field.editing) == (1, False)
     assert window.document.gesture is None
+
+
+def test_a_message_gets_the_room_it_needs_before_the_hint(qtbot: QtBot, window: MainWindow) -> None:
+    window.resize(1600, 800)
+    window.status.show_hint("Drag: select with a box, " * 10)
+    window.say("Value: not a number or a formula that can be worked out for these keys")
+    message = window.status.message
+    needed = message.fontMetrics().horizontalAdvance(message.text())
+    qtbot.waitUntil(lambda: message.width() >= needed)
+    window.say("A very long message " * 30)
+    qtbot.waitUntil(lambda: window.status.selection.geometry().right() <= window.status.width())
+
+
+def test_what_a_button_does_stands_where_the_hint_was_and_moves_nothing(qtbot: QtBot, window: MainWindow) -> None:
+    window.status.show_hint("Drag: select with a box")
+    qtbot.waitUntil(lambda: window.status.hint.width() > 0)
+    place = window.status.selection.pos()
+    window.statusBar().showMessage("Write the clip to its file")
+    assert window.status.hint.text() == "Write the clip to its file"
+    assert window.status.message.isHidden()
+    qtbot.wait(1)
+    assert window.status.selection.pos() == place
+    window.statusBar().clearMessage()
+    assert window.status.hint.text() == "Drag: select with a box"
