@@ -1,26 +1,34 @@
 """How well a few typed letters fit a text."""
 
 WORD_STARTS = " ./_-"
+BESIDE = 0.45  # what a word found beside the text counts for
 
 
-def fitness(query: str, text: str) -> float:
-    """Larger is better; 0 when some word of *query* is not found in *text*.
+def fitness(query: str, text: str, beside: str = "") -> float:
+    """Larger is better; 0 when some word of *query* is found neither in *text* nor, in one piece, in *beside*.
 
-    Every word of the query must be there, its letters in order; whole words and beginnings of words count most.
+    Whole words and beginnings of words count most; the letters may be scattered over *text* only from the beginning
+    of a word on.
     """
-    words = query.lower().split()
-    scores = [_word_fitness(word, text.lower()) for word in words]
-    return sum(scores) / len(scores) if words and all(scores) else float(not words)
+    text, beside = text.lower(), beside.lower()
+    scores = [
+        max(_word_fitness(word, text) or _scattered_fitness(word, text), BESIDE * _word_fitness(word, beside))
+        for word in query.lower().split()
+    ]
+    return sum(scores) / len(scores) if scores and all(scores) else float(not scores)
 
 
 def _word_fitness(word: str, text: str) -> float:
+    """4 for a whole word, 3 for the beginning of one, 2 for the middle; a little more in short texts and early."""
+    best = 0.0
     place = text.find(word)
-    while place > 0 and text[place - 1] not in WORD_STARTS and (later := text.find(word, place + 1)) > 0:
-        place = later
-    if place >= 0:
-        starts_word = place == 0 or text[place - 1] in WORD_STARTS
-        return (3.0 if starts_word else 2.0) + len(word) / (len(text) + 1) - place / 1000
-    return _scattered_fitness(word, text)
+    while place >= 0:
+        end = place + len(word)
+        starts = place == 0 or text[place - 1] in WORD_STARTS
+        ends = end == len(text) or text[end] in WORD_STARTS
+        best = max(best, 2.0 + starts + (starts and ends) + len(word) / (len(text) + 1) - place / 1000)
+        place = text.find(word, place + 1)
+    return best
 
 
 def _scattered_fitness(word: str, text: str) -> float:
@@ -28,6 +36,8 @@ def _scattered_fitness(word: str, text: str) -> float:
     place, gaps = -1, 0
     for letter in word:
         found = text.find(letter, place + 1)
+        while place < 0 < found and text[found - 1] not in WORD_STARTS:
+            found = text.find(letter, found + 1)
         if found < 0:
             return 0.0
         gaps += found > place + 1 and place >= 0 and text[found - 1] not in WORD_STARTS

@@ -50,6 +50,7 @@ class Entry:
     keys: str
     unmet: str  # why it cannot run now
     run: Callable[[], object]
+    words: str = ""  # by which it is found too
 
 
 def entries_of(window: "MainWindow") -> list[Entry]:
@@ -59,7 +60,7 @@ def entries_of(window: "MainWindow") -> list[Entry]:
         row = action.row
         title = action.text().replace("&&", "\0").replace("&", "").replace("\0", "&").removesuffix("…")
         place = row.menu.replace("/", " ▸ ")
-        entries.append(Entry(title, place, shortcut_text(row), row.unmet_need(window), action.run))
+        entries.append(Entry(title, place, shortcut_text(row), row.unmet_need(window), action.run, row.words))
     for channel in window.document.clip.channels:
         keys = counted(len(channel), "key")
         entries.append(Entry(channel.name, "Channel", keys, "", partial(window.activate, channel)))
@@ -76,10 +77,7 @@ class EntryList(QAbstractListModel):
 
     def filter(self, query: str) -> None:
         """Keep what fits *query*; what can run now comes before what cannot."""
-        scored = [
-            (max(1.5 * fitness(query, entry.title), fitness(query, f"{entry.title} {entry.place}")), entry)
-            for entry in self._all
-        ]
+        scored = [(fitness(query, entry.title, f"{entry.place} {entry.words}"), entry) for entry in self._all]
         fitting = [(score, entry) for score, entry in scored if score > 0]
         if query.strip():
             fitting.sort(key=lambda pair: (bool(pair[1].unmet), -pair[0]))

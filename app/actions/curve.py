@@ -61,6 +61,7 @@ CURVE_ACTIONS = (
             function=partial(_set_extrapolation, side, mode),
             icon=f"{side}-{mode.word.replace('_', '-')}",
             tip=EXTRAPOLATIONS[mode].tip,
+            words=f"extrapolation {side} infinity",
             needs=(CURVES_IN_HAND,),
             checked_when=partial(_has_extrapolation, side, mode),
         )

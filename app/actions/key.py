@@ -74,6 +74,7 @@ KEY_ACTIONS = (
             shortcuts=(row.shortcut,),
             icon=row.icon,
             tip=row.tip,
+            words="tool",
             checked_when=partial(_has_tool, row.name),
         )
         for row in TOOLS.values()

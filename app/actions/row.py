@@ -35,6 +35,7 @@ class Action:
     checked_when: Callable[["MainWindow"], bool] | None = None
     label_now: Callable[["MainWindow"], str] | None = None
     begins_group: bool = False  # a line above it in its menu
+    words: str = ""  # other words by which the palette finds it
     in_mid_drag: bool = False  # may run while a gesture is open
     keeps_entry: bool = True  # what is being typed into a number field is kept before it runs
 

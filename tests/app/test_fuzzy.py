@@ -19,6 +19,8 @@ def test_nothing_typed_fits_everything_and_wrong_letters_nothing() -> None:
         ("copy", "Copy", "Copy of Everything"),
         ("sa", "Save", "Select All"),
         ("play", "Play / Stop", "Display"),
+        ("key", "Next Key", "Keyboard"),
+        ("extrap", "Extrapolations", "Next Frame Play"),
     ],
 )
 def test_beginnings_of_words_and_short_names_come_first(query: str, better: str, worse: str) -> None:
@@ -27,3 +29,9 @@ def test_beginnings_of_words_and_short_names_come_first(query: str, better: str,
 
 def test_words_may_come_in_any_order() -> None:
     assert fitness("all select", "Select All") > 0
+
+
+def test_words_beside_the_text_are_found_in_one_piece_and_count_less() -> None:
+    assert fitness("play", "Next Frame") == 0
+    assert fitness("play", "Display") > fitness("play", "Next Frame", "Play") > 0
+    assert fitness("extrap", "Next Frame", "Play") == 0

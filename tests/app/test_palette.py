@@ -60,3 +60,14 @@ def test_rubbish_finds_nothing_and_enter_does_nothing(qtbot: QtBot, window: Main
     assert typed(palette, "qqqq") == []
     palette.run_chosen()
     assert palette.isVisible()
+
+
+def test_extrapolations_are_found_by_that_word_and_nothing_else_is(qtbot: QtBot, window: MainWindow) -> None:
+    palette = opened(qtbot, window)
+    typed(palette, "extrap")
+    assert palette.model.found[0].title == "Extrapolations at the Mouse"
+    assert {entry.place for entry in palette.model.found[1:]} == {
+        "Curve ▸ Before the First Key",
+        "Curve ▸ After the Last Key",
+    }
+    assert len(palette.model.found) == 11
