@@ -264,11 +264,20 @@ def _add_render(sub: argparse.ArgumentParser) -> None:
 def _render(arguments: argparse.Namespace) -> None:
     if arguments.start is not None and arguments.end is not None and not arguments.start < arguments.end:
         raise CommandError(f"hermite render: --from {arguments.start!r} does not lie before --to {arguments.end!r}")
+    if os.path.exists(arguments.out) and (format_of_path(arguments.out) or _holds_a_clip(arguments.out)):
+        raise CommandError(f"{arguments.out}: not written, since it is a clip and -o names a picture, as in walk.png")
     clip = read_clip(arguments.file, skeleton=arguments.skel)
     channels = _chosen(clip, arguments.channel)
     from app.render import render
 
     render(clip, channels, arguments.out, size=arguments.size, start=arguments.start, end=arguments.end)
+
+
+def _holds_a_clip(path: str) -> bool:
+    if not os.path.isfile(path):
+        return False
+    with open(path, "rb") as file:
+        return sniff(file.read(1 << 16)) in FORMATS
 
 
 COMMANDS: Final[dict[str, Command]] = {

@@ -256,3 +256,15 @@ def test_no_command_but_render_loads_qt(walk: Path, words: list[str]) -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
     assert (done.returncode, done.stderr) == (0, b"[]\n")
+
+
+@pytest.mark.parametrize("name", ["walk.hermite", "other.anim", "clip-without-extension"])
+def test_a_picture_is_not_written_over_a_clip(hermite: Hermite, walk: Path, tmp_path: Path, name: str) -> None:
+    target = tmp_path / name
+    if not target.exists():
+        target.write_bytes(walk.read_bytes())
+    before = target.read_bytes()
+    code, out, error = hermite("render", walk, "-o", target)
+    assert (code, out) == (2, "")
+    assert error.startswith(f"{target}: not written, since it is a clip")
+    assert target.read_bytes() == before
