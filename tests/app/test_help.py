@@ -1,5 +1,6 @@
 """Help tells what is there: every command with its keys, and what the mouse does."""
 
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from app.about import versions
@@ -32,3 +33,18 @@ def test_the_mouse_table_can_be_searched(qtbot: QtBot, window: MainWindow) -> No
 
 def test_about_names_the_versions_it_runs_on() -> None:
     assert dict(versions()).keys() >= {"Hermite", "Python", "numpy", "pyqtgraph"}
+
+
+def test_no_text_of_the_table_is_cut(qtbot: QtBot, window: MainWindow) -> None:
+    dialog = ShortcutsDialog(window)
+    dialog.show()
+    qtbot.waitExposed(dialog)
+    table, model = dialog.table, dialog.table.model()
+    metrics, last = table.fontMetrics(), model.columnCount() - 1
+    for row in range(model.rowCount()):
+        for column in range(last):
+            text = str(model.index(row, column).data())
+            assert metrics.horizontalAdvance(text) <= table.columnWidth(column), text
+        text = str(model.index(row, last).data())
+        needed = metrics.boundingRect(0, 0, table.columnWidth(last) - 8, 0, Qt.TextFlag.TextWordWrap, text)
+        assert needed.height() <= table.rowHeight(row), text
