@@ -15,7 +15,7 @@ from model.document import Document
 from model.keyframe import KeyGoneError
 from model.sampling import Window
 from widgets.canvas import Canvas
-from widgets.fitting import all_fitted, selection_fitted
+from widgets.fitting import active_fitted, all_fitted, selection_fitted
 from widgets.graph import DrawnHandle, Frame, Spot
 from widgets.guard import guarded
 from widgets.hit_test import Hit
@@ -227,9 +227,10 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         self.set_view(all_fitted(self.document))
 
     def frame_selection(self) -> None:
-        """Show the selected keys, or everything if there are none."""
+        """Show the selected keys; if there are none all of the active channel, else everything."""
         self._last_step = -ONE_STEP
-        self.set_view(selection_fitted(self.document) or all_fitted(self.document))
+        document = self.document
+        self.set_view(selection_fitted(document) or active_fitted(document) or all_fitted(document))
 
     def view_back(self) -> None:
         """Show what was shown before."""

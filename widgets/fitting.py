@@ -1,8 +1,11 @@
-"""Which range shows all of a clip, or its selected keys."""
+"""Which range shows all of a clip, one channel, or the selected keys."""
 
+from collections.abc import Iterable
 from math import inf
 from typing import Final
 
+from model.channel import Channel
+from model.clip import Clip
 from model.document import Document
 from widgets.view_range import ViewRange, fitted
 
@@ -13,8 +16,19 @@ ALONE: Final = 1
 
 def all_fitted(document: Document) -> ViewRange:
     """The shown channels from the first key to the last, lowest to highest; the clip's range if there is no key."""
-    clip, session = document.clip, document.session
-    channels = session.shown_channels(clip) or clip.channels
+    clip = document.clip
+    return _fitted_channels(clip, document.session.shown_channels(clip) or clip.channels)
+
+
+def active_fitted(document: Document) -> ViewRange | None:
+    """All keys of the active channel, lowest to highest; None if it is not shown or has no key."""
+    channel = document.session.active
+    if channel is None or not len(channel) or not document.session.shown(channel):
+        return None
+    return _fitted_channels(document.clip, [channel])
+
+
+def _fitted_channels(clip: Clip, channels: Iterable[Channel]) -> ViewRange:
     t0, t1, v0, v1 = inf, -inf, inf, -inf
     for channel in channels:
         first, last = channel.first, channel.last

@@ -53,7 +53,7 @@ VIEW_ACTIONS = (
         function=lambda w: w.view.frame_selection(),
         shortcuts=("F",),
         icon="frame-selection",
-        tip="Fit the selected keys, or the active channel when none is selected, into the graph",
+        tip="Fit the selected keys into the graph; with none selected the active channel, else every shown curve",
         needs=(KEYS,),
         in_mid_drag=True,
     ),

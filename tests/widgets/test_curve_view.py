@@ -12,14 +12,15 @@ from model import edits
 from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
-from model.keyframe import TangentRule, make_run
+from model.keyframe import Run, TangentRule, make_run
+from model.sampling import Window
 from model.selection import Selection
 from tests.widgets.screens import Screen, sample_clip, view_of
 from widgets.curve_view import CurveView
 from widgets.guard import unguarded
 from widgets.layers import LAYERS
 from widgets.layers.handles import LENGTH
-from widgets.layers.keys import SHAPES
+from widgets.layers.keys import CELL, MOST_SELECTED, SHAPES, one_a_cell
 from widgets.view_range import ViewRange
 
 type Make = Callable[..., CurveView]
@@ -121,6 +122,26 @@ def test_framing_the_selection_shows_it_large(make: Make) -> None:
     view.document.session.selection = Selection.NONE
     view.frame_selection()
     assert view.view_range.t1 > 19
+
+
+def test_with_nothing_selected_the_active_channel_is_framed_and_else_everything(make: Make) -> None:
+    near, far = Channel("near", make_run([0.0, 1.0], 0.0)), Channel("far", make_run([50.0, 60.0], [7.0, 9.0]))
+    view = make(Clip([near, far, Channel("bare")]))
+    everything, session = view.view_range, view.document.session
+    session.active = far
+    view.frame_selection()
+    assert 49 < view.view_range.t0 < 50 < 60 < view.view_range.t1 < 61
+    assert 6 < view.view_range.v0 < 7 < 9 < view.view_range.v1 < 10
+    session.active = view.document.clip.channels[2]
+    view.frame_selection()
+    assert view.view_range == everything
+    session.active, session.hidden = far, {far}
+    view.frame_selection()
+    assert view.view_range.t1 < 2
+    session.selection = Selection.of_all([near])
+    session.active = near
+    view.frame_selection()
+    assert view.view_range.t1 < 2
 
 
 def test_panning_moves_the_picture_like_a_hand(make: Make) -> None:
@@ -315,3 +336,41 @@ def test_a_new_unit_is_at_once_that_of_ruler_and_grid(qtbot: QtBot) -> None:
     view.document.do("Unit", lambda clip: edits.set_setting(clip, clip.channels, "unit", "angle"))
     assert (screen.shown() == screen.painted_anew()).all()
     assert "90°" in view.canvas.stage(1.0).value_ticks.labels
+
+
+def test_among_very_many_selected_keys_none_is_far_from_a_mark(make: Make) -> None:
+    n = 3 * MOST_SELECTED
+    values = np.random.default_rng(1).normal(size=n)
+    channel = Channel("c", make_run(np.arange(n) / 100, values))
+    view = make(Clip([channel]))
+    view.frame_all()
+    stage, run = view.canvas.stage(1.0), channel.run()
+    kept = run[one_a_cell(run, stage)]
+    assert len(kept) < n / 2
+    window = stage.window
+    marked = np.zeros((int(window.width) // 3 + 9, int(window.height) // 3 + 9), np.bool_)
+    marked[cells_of(kept, window)] = True
+    assert marked[cells_of(run, window)].all()
+
+
+def cells_of(run: Run, window: Window) -> tuple[np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+    column = np.floor(run["time"] * (window.px_per_second / CELL)) - np.floor(window.t0 * window.px_per_second / CELL)
+    row = np.floor((window.y_from_value(run["value"]) - window.top) / CELL)
+    return column.astype(np.intp) + 1, row.astype(np.intp) + 1
+
+
+def test_strips_of_very_many_selected_keys_meet_the_rest(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("widgets.layers.keys.MOST_SELECTED", 50)
+    rng = np.random.default_rng(2)
+    channel = Channel("c", make_run(np.arange(3000) / 100, rng.normal(size=3000)))
+    view = view_of(Clip([channel]))
+    qtbot.addWidget(view)
+    screen = Screen(view)
+    view.document.session.selection = Selection.of_all([channel])
+    screen.shown()
+    middle = Selection.of({channel: channel.run()["id"][1500:1501]})
+    gesture = view.document.begin("Move")
+    for step in (0.3, -0.8, 1.9):
+        gesture.preview(lambda clip, step=step: edits.move(clip, middle, 0.0, step))
+        assert (screen.shown() == screen.painted_anew()).all()
+    gesture.cancel()
