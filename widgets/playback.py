@@ -64,9 +64,9 @@ class Playback(QObject):
 
     def step_frame(self, frames: int) -> None:
         """Go so many whole frames on (or back); from between two frames the first step ends on the next one."""
-        self._session.playing = False
         clip = self._document.clip
         frame = clip.frame_of(self._session.playhead)
+        self._session.playing = False
         whole = round(frame)
         if abs(frame - whole) > SAME_FRAME:
             whole = floor(frame) if frames > 0 else ceil(frame)
@@ -74,8 +74,8 @@ class Playback(QObject):
 
     def step_key(self, direction: int) -> None:
         """Go to the next (1) or previous (-1) key of the selected channels, else of the active, else of all shown."""
-        self._session.playing = False
         now = self._session.playhead
+        self._session.playing = False
         times = [key.time for channel in self._channels() if (key := _key_beside(channel, now, direction)) is not None]
         if times:
             self._session.playhead = min(times) if direction > 0 else max(times)
@@ -91,8 +91,8 @@ class Playback(QObject):
         start, end = self.range()
         if time >= end:
             if not session.loop or end <= start:
-                session.playhead = end
                 session.playing = False
+                session.playhead = end
                 return
             time = start + (time - start) % (end - start)
             self._anchor = (now, time)
@@ -111,8 +111,18 @@ class Playback(QObject):
             return
         if self._session.playing:
             self._begin()
-        else:
+        elif self._timer.isActive():
             self._timer.stop()
+            self._come_to_rest()
+
+    def _come_to_rest(self) -> None:
+        """With snapping on, stand on the nearest whole frame, but not on one outside of what is played."""
+        session = self._session
+        if session.snap:
+            start, end = self.range()
+            time = session.snap_time(self._document.clip, session.playhead)
+            inside = start <= session.playhead <= end
+            session.playhead = min(max(time, start), end) if inside else time
 
     def _begin(self) -> None:
         start, end = self.range()

@@ -69,6 +69,7 @@ def run(playback, clock, *seconds):
 
 
 def test_the_playhead_is_where_the_clock_says_however_rarely_it_is_asked(playback, session, clock):
+    session.snap = False
     playback.toggle_play()
     run(playback, clock, 0.01, 0.7, 0.002)
     assert session.playhead == pytest.approx(0.712, abs=1e-12)
@@ -133,6 +134,30 @@ def test_pause_and_play_again_go_on(playback, session, clock):
     playback.toggle_play()
     run(playback, clock, 0.25)
     assert session.playhead == pytest.approx(0.75)
+
+
+def test_a_pause_comes_to_rest_on_the_nearest_frame_while_snapping_is_on(playback, session, clock, document):
+    def paused_after(seconds):
+        session.playhead = 0.0
+        playback.toggle_play()
+        run(playback, clock, seconds)
+        session.playing = False
+        return session.playhead
+
+    assert paused_after(0.514) == 0.5
+    document.clip.end = 0.97
+    assert paused_after(0.96) == 0.97, "the frame at 1.0 s lies outside of what is played"
+    session.loop = False
+    assert paused_after(1.2) == 0.97, "the end is the end, whole frame or not"
+    session.snap = False
+    assert paused_after(0.514) == pytest.approx(0.514)
+
+
+def test_a_step_while_playing_goes_to_the_frame_beside(playback, session, clock):
+    playback.toggle_play()
+    run(playback, clock, 0.16)
+    playback.step_frame(1)
+    assert (session.playhead, session.playing) == (0.2, False)
 
 
 def test_the_clips_range_is_played_and_without_one_the_times_of_the_keys(playback, document):
