@@ -124,7 +124,7 @@ def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[Loss]:
         return
     names = [name for name, _, _ in same]
     ends = np.cumsum([len(a) for _, a, _ in same])
-    wanted, held = np.concatenate([a for _, a, _ in same]), np.concatenate([b for _, _, b in same])
+    wanted, held = _joined([a for _, a, _ in same]), _joined([b for _, _, b in same])
     for kind, lost in _kinds_of_loss(wanted, held):
         where = np.flatnonzero(lost)
         if len(where):
@@ -140,6 +140,10 @@ class _Kind(NamedTuple):
     one: str
     many: str
     in_motion: bool
+
+
+def _joined(runs: list[Run]) -> Run:
+    return runs[0] if len(runs) == 1 else np.concatenate(runs)
 
 
 def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[_Kind, NDArray[np.bool_]]]:
@@ -175,7 +179,7 @@ def _rule_lost(rule: TangentRule, other: TangentRule, side: str) -> _Kind:
 
 
 def _bits(column: NDArray[np.float64]) -> NDArray[np.int64]:
-    return np.ascontiguousarray(column).view(np.int64)
+    return column.view(np.int64)
 
 
 def _same_number(a: float, b: float) -> bool:

@@ -26,6 +26,14 @@ class FormatError(ValueError):
         place = f"{path}:{line}:{column}" if line else path
         super().__init__(f"{place}: {problem}; {remedy}" if remedy else f"{place}: {problem}")
 
+    @property
+    def advice(self) -> str:
+        """The sentence for a dialog, in a paragraph of its own what to do where the file's fault suggests nothing."""
+        if self.remedy:
+            return str(self)
+        here = "Mend that place in a text editor" if self.line else "Choose another file"
+        return f"{self}\n\n{here}, or open an older copy."
+
     def __reduce__(self) -> tuple[type["FormatError"], tuple[str, int, int, str, str]]:
         return FormatError, (self.path, self.line, self.column, self.problem, self.remedy)
 
