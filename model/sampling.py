@@ -107,9 +107,11 @@ def columns(channel: Channel, window: Window, first: int, last: int, *, inside: 
 
 def slope_outside(channel: Channel, *, after: bool) -> float | None:
     """The slope of the straight line that goes on from the first or last key; None if the keys are repeated there."""
-    first, last = channel.first, channel.last
     mode = channel.post if after else channel.pre
-    if first is None or last is None or mode is Extrapolation.CONSTANT:
+    if mode is Extrapolation.CONSTANT:
+        return 0.0
+    first, last = channel.first, channel.last
+    if first is None or last is None:
         return 0.0
     if mode is Extrapolation.LINEAR:
         if after:

@@ -18,7 +18,8 @@ from widgets import rulers
 from widgets.backdrop import Backdrop
 from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
-from widgets.layers.handles import KNOB, LENGTH
+from widgets.layers.handles import KNOB, LENGTH, MOST, shown_handles
+from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of
 from widgets.numbers import is_angle
 from widgets.stage import LABEL_SIZE, Overlay, Stage, pixel_size, unit_of
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 # How far, in logical pixels, a key's mark and handles reach beside the curve.
 REACH: Final = LENGTH + 2 * KNOB + 4
+# How far the marks themselves reach.
+MARK: Final = 2 * SELECTED + 4
 # While the view moves, the picture goes on being refined only so often, in ms.
 PAUSE: Final = 20
 
@@ -224,8 +227,21 @@ class Canvas(QGraphicsItem):
                 self._traces = self._stage = None
         self.backdrop.mark(channel, t0, t1)
         if self._document.session.shown(channel):
-            self.repaint_times(t0, t1)
+            self._repaint_change(channel, t0, t1)
             self._relabel(channel, t0, t1)
+
+    def _repaint_change(self, channel: Channel, t0: float, t1: float) -> None:
+        """Repaint what has changed of a curve and, if they are few, its handles as painted last and as they are now."""
+        stage, hover = self._stage, self.overlay.hover
+        rings = hover is not None and hover.channel is channel and hover.kind != "key"
+        if stage is None or rings or self._document.session.selection.count > MOST:
+            self.repaint_times(t0, t1)
+            return
+        self.repaint_times(t0, t1, MARK)
+        unit = stage.window.unit
+        for box in (*stage.arms.get(channel, ()), *(handles.box for _, handles in shown_handles(stage, channel))):
+            around = QRectF(box.topLeft() / unit, box.bottomRight() / unit).adjusted(-MARK, -MARK, MARK, MARK)
+            self.repaint(around.intersected(self._view.plot_rect))
 
     def _relabel(self, channel: Channel, t0: float, t1: float) -> None:
         stage = self._stage

@@ -58,6 +58,8 @@ class Stage:
     base_font: QFont
     labels: tuple[Label, ...] = ()
     hint: str = ""
+    # Where the handles that have been painted last are, in screen pixels.
+    arms: dict[Channel, list[QRectF]] = field(default_factory=dict)
     # That of the value ruler.
     unit: str = field(init=False)
     _fonts: dict[float, QFont] = field(default_factory=dict)

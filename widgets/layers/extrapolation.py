@@ -50,7 +50,9 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     cut = straight_dashes(np.array(list(rays.values())), dash, gap, window.x_from_time(0.0)) if rays else []
     lines = dict(zip(rays, cut, strict=True))
     for i, (trace, after, low, high) in enumerate(sides):
-        if i in lines:
+        if i in lines and i + 1 in lines and sides[i + 1][0] is trace:
+            lines[i + 1] = np.concatenate((lines[i], lines[i + 1]))
+        elif i in lines:
             _draw_straight(painter, stage, trace, lines[i])
         else:
             _draw_repeats(painter, stage, trace, low, high, after=after)

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from math import hypot
 from typing import Final, NamedTuple
 
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainter, QPen
 
+from model.channel import Channel
 from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, TangentRule
 from model.lines import HUGE
@@ -30,6 +31,12 @@ class Handles(NamedTuple):
     out: Spot | None
     broken: bool
     id: int
+
+    @property
+    def box(self) -> QRectF:
+        """What lies between the ends."""
+        xs, ys = zip(self.key, self.into or self.key, self.out or self.key, strict=True)
+        return QRectF(QPointF(min(xs), min(ys)), QPointF(max(xs), max(ys)))
 
 
 def handles_of(key: Keyframe, window: Window) -> Handles:
@@ -58,14 +65,14 @@ def _arm(slope: float, window: Window) -> tuple[float, float]:
     return length / size, length * (fall / size)
 
 
-def shown_handles(stage: Stage) -> list[tuple[Trace, Handles]]:
-    """The handles of all selected keys in view; none if there are too many to tell apart."""
+def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace, Handles]]:
+    """The handles of all selected keys in view, or *only* of one channel; none if they are too many to tell apart."""
     window = stage.window
     margin = LENGTH * window.unit
     t0, t1 = window.time_from_x(window.left - margin), window.time_from_x(window.right + margin)
     found: list[tuple[Trace, Keyframe]] = []
     for trace, ids in stage.chosen:
-        if trace.channel.locked:
+        if trace.channel.locked or (only is not None and trace.channel is not only):
             continue
         run = selected_between(trace.channel, ids, t0, t1)
         if len(found) + len(run) > MOST:
@@ -78,7 +85,11 @@ def draw_handles(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: f
     """Thin lines with round ends: filled where both sides turn together, hollow where they turn apart."""
     theme = stage.theme
     reach = stage.px(LENGTH + 2 * KNOB)
-    shown = [each for each in shown_handles(stage) if x0 - reach <= each[1].key[0] <= x1 + reach]
+    every = shown_handles(stage)
+    stage.arms = {}
+    for trace, handles in every:
+        stage.arms.setdefault(trace.channel, []).append(handles.box)
+    shown = [each for each in every if x0 - reach <= each[1].key[0] <= x1 + reach]
     if not shown:
         return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)

@@ -25,7 +25,7 @@ SELECTED: Final = 4.6
 CELL: Final = 3.0
 # A channel with more keys in view than one in so many pixels shows only its selected ones.
 CROWD: Final = 3.0
-# More selected keys in view than this are merged column by column before they are drawn.
+# Of more selected keys of a channel than this, those in the same small cell are one mark, which covers them all.
 MOST_SELECTED: Final = 20_000
 
 
@@ -102,6 +102,8 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     t0, t1 = window.time_from_x(x0 - reach), window.time_from_x(x1 + reach)
     for trace, ids in stage.chosen:
         run = selected_between(trace.channel, ids, t0, t1)
+        if len(ids) > MOST_SELECTED:
+            run = run[one_a_cell(run, stage)]
         _draw_run(painter, stage, run, stage.theme.key_selected, stage.px(SELECTED))
 
 
@@ -144,6 +146,23 @@ def told_apart(run: Run, stage: Stage) -> NDArray[np.bool_]:
     apart = np.ones(len(run), np.bool_)
     apart[1:] = (np.diff(column) != 0) | (row[1:] != row[:-1])
     return apart
+
+
+def one_a_cell(run: Run, stage: Stage) -> NDArray[np.intp]:
+    """The last key of each small cell of the picture, in the order of time; what lies above or below it is left out."""
+    window, cell = stage.window, stage.px(CELL)
+    with np.errstate(over="ignore"):
+        column = np.floor(run["time"] * (window.px_per_second / cell))
+        row = np.floor((window.y_from_value(run["value"]) - window.top) / cell)
+    rim = int(4 * SELECTED / CELL)
+    high = int(window.height / cell) + 1 + 2 * rim
+    inside = np.flatnonzero((row >= -rim) & (row < high - rim))
+    if not len(inside):
+        return inside
+    column, row = column[inside] - column[inside[0]], row[inside] + rim
+    last = np.full((int(column[-1]) + 1) * high, -1, np.intp)
+    last[(column * high + row).astype(np.intp)] = inside
+    return np.sort(last[last >= 0])
 
 
 def _draw_run(painter: QPainter, stage: Stage, run: Run, color: QColor, radius: float) -> None:
