@@ -1,5 +1,6 @@
 """ChannelCells: how one cell of the channel tree is painted."""
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
@@ -42,6 +43,7 @@ class ChannelCells(QStyledItemDelegate):
         self._theme = theme
         self._rows = rows
         self._pens: dict[Channel, QPen] = {}
+        self._alike: Counter[int] = Counter()  # how many channels have a colour
         self._font: QFont | None = None
         self._number_font = QFont()
         self._metrics = QFontMetrics(self._number_font)
@@ -51,6 +53,7 @@ class ChannelCells(QStyledItemDelegate):
     def forget_colors(self) -> None:
         """Work out all colours again: the theme or a channel's colour has changed."""
         self._pens.clear()
+        self._alike.clear()
 
     @guarded(QSize(40, ROW_HEIGHT))
     def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
@@ -73,8 +76,9 @@ class ChannelCells(QStyledItemDelegate):
                 self._paint_value(painter, option.rect, self._rows.value_text(channel))
         else:
             self._paint_toggle(painter, option, index, column)
-        focus = QStyle.StateFlag.State_HasFocus
-        if option.state & focus and option.state & QStyle.StateFlag.State_KeyboardFocusChange:
+        # On an icon always, for Space acts on it; on a name only for those who go by keyboard.
+        by_key = bool(option.state & QStyle.StateFlag.State_KeyboardFocusChange) or column in TOGGLES
+        if option.state & QStyle.StateFlag.State_HasFocus and by_key:
             painter.setPen(self._theme.pen(self._theme.accent))
             painter.drawRect(option.rect.adjusted(0, 0, -1, -1))
         painter.restore()
@@ -144,11 +148,15 @@ class ChannelCells(QStyledItemDelegate):
 
     def _pen(self, channel: Channel) -> QPen:
         if channel not in self._pens:
-            rank = self._rows.rank(channel)
-            pen = QPen(self._theme.channel_color(channel, rank), 2.5)
+            rank, theme = self._rows.rank(channel), self._theme
+            color = theme.channel_color(channel, rank)
+            pen = QPen(color, 2.5)
             pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-            dash = self._theme.channel_dash(channel, rank)
-            if dash:
+            if not self._alike:
+                channels = enumerate(self._document.clip.channels)
+                self._alike = Counter(theme.channel_color(other, place).rgba() for place, other in channels)
+            dash = theme.channel_dash(channel, rank)
+            if dash and self._alike[color.rgba()] > 1:  # as the curves: a second code where the first is not enough
                 pen.setDashPattern([max(length * 0.4, 0.8) for length in dash])
             self._pens[channel] = pen
         return self._pens[channel]
