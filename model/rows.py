@@ -309,7 +309,13 @@ class Rows:
             row0, row1, step = max(0, row0 - step), min(self.rows, row1 + step), 2 * step
         everything = row0 == row1
         base, stop = (0, self.size) if everything else (int(self.first[row0]), int(self.first[row1]))
-        shared = np.concatenate([self.run(base, rank0), run, self.run(rank1, stop)])
+        shared = run
+        if base < rank0 or rank1 < stop:
+            # Joining records by numpy's own means compares their fields one by one, each time.
+            shared = np.empty(stop - base - (rank1 - rank0) + len(run), KEY_DTYPE)
+            head = rank0 - base
+            shared[:head], shared[head + len(run) :] = self.run(base, rank0), self.run(rank1, stop)
+            shared[head : head + len(run)] = run
         self._forget(rank0, rank1)
         if everything:
             self._make(new_size)

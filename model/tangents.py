@@ -170,14 +170,27 @@ def slopes_of(
 ) -> tuple[Floats, Floats]:
     """(slopes in, slopes out) by rule of neighbouring keys seen as a whole channel; fixed sides keep theirs."""
     chords = Chords(times, values)
-    found = slopes_in.copy(), slopes_out.copy()
-    for side, (rules, slopes) in enumerate(zip((rules_in, rules_out), found, strict=True)):
-        for rule in np.flatnonzero(np.bincount(rules)).tolist():
-            row = TANGENT_RULES[TangentRule(rule)]
-            function = row.slope_out if side else row.slope_in
-            if function is not None:
-                np.copyto(slopes, function(chords), where=rules == rule)
-    return found
+    return (
+        _slopes_on_a_side(chords, rules_in, slopes_in, [row.slope_in for row in TANGENT_RULES.values()]),
+        _slopes_on_a_side(chords, rules_out, slopes_out, [row.slope_out for row in TANGENT_RULES.values()]),
+    )
+
+
+def _slopes_on_a_side(
+    chords: Chords, rules: Marks, given: Floats, functions: list[Callable[[Chords], Floats] | None]
+) -> Floats:
+    if not len(rules):
+        return given.copy()
+    first = int(rules[0])
+    if (rules == first).all():
+        function = functions[first]
+        return given.copy() if function is None else function(chords)
+    slopes = given.copy()
+    for rule in np.flatnonzero(np.bincount(rules)).tolist():
+        function = functions[rule]
+        if function is not None:
+            np.copyto(slopes, function(chords), where=rules == rule)
+    return slopes
 
 
 def slope_pair(

@@ -218,4 +218,4 @@ class Walk(RuleBasedStateMachine):
 
 
 TestWalk = Walk.TestCase
-TestWalk.settings = settings(max_examples=25, stateful_step_count=30, deadline=None)
+TestWalk.settings = settings(max_examples=18, stateful_step_count=30, deadline=None)
