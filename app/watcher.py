@@ -46,6 +46,7 @@ class Watcher(QObject):
         window.undo_stack.indexChanged.connect(self._history_moved)
         window.undo_stack.cleanChanged.connect(self._history_moved)
         window.files.changed.connect(window.refresh_title)
+        window.view.view_changed.connect(Soon(self, self._view_moved).ask)
         window.view.hint_changed.connect(window.status.show_hint)
         for panel in (window.view, window.tree, window.inspector, window.transport):
             panel.status.connect(window.say)
@@ -83,6 +84,12 @@ class Watcher(QObject):
     def _committed(self, edit: Edit) -> None:
         if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen
             self._window.say(edit.label)
+
+    def _view_moved(self) -> None:
+        if isValid(self._window):
+            for name in ("view.back", "view.forward"):
+                self._window.actions_by_id[name].refresh({})
+            self._window.tips.ask()
 
     def _typed(self, _text: str) -> None:
         self._window.actions_by_id["file.save"].refresh({})

@@ -232,6 +232,16 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         document = self.document
         self.set_view(selection_fitted(document) or active_fitted(document) or all_fitted(document))
 
+    @property
+    def can_go_back(self) -> bool:
+        """Whether `view_back` shows something else."""
+        return self._history.leads_back(self.view_range)
+
+    @property
+    def can_go_forward(self) -> bool:
+        """Whether `view_forward` shows something else."""
+        return self._history.leads_forward(self.view_range)
+
     def view_back(self) -> None:
         """Show what was shown before."""
         view = self._history.back(self.view_range)

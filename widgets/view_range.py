@@ -90,6 +90,14 @@ class ViewHistory:
         """The view that going back left."""
         return self._step(self._forward, self._back, present)
 
+    def leads_back(self, present: ViewRange) -> bool:
+        """Whether there is a view before."""
+        return any(view != present for view in self._back)
+
+    def leads_forward(self, present: ViewRange) -> bool:
+        """Whether going back left a view."""
+        return any(view != present for view in self._forward)
+
     @staticmethod
     def _step(source: list[ViewRange], target: list[ViewRange], present: ViewRange) -> ViewRange | None:
         while source:

@@ -3,7 +3,7 @@
 from functools import partial
 from typing import TYPE_CHECKING
 
-from app.actions.row import KEYS, Action
+from app.actions.row import KEYS, Action, Need
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
@@ -84,6 +84,7 @@ VIEW_ACTIONS = (
         shortcuts=("Alt+Left",),
         icon="view-back",
         tip="Go back to where the view was before",
+        needs=(Need(lambda w: w.view.can_go_back, "the view has not been moved"),),
         begins_group=True,
         in_mid_drag=True,
     ),
@@ -95,6 +96,7 @@ VIEW_ACTIONS = (
         shortcuts=("Alt+Right",),
         icon="view-forward",
         tip="Undo going back",
+        needs=(Need(lambda w: w.view.can_go_forward, "the view has not gone back"),),
         in_mid_drag=True,
     ),
     *(
