@@ -18,6 +18,7 @@ from widgets.numbers import factor_of, is_angle, shown, stored_from_shown
 
 type Floats = NDArray[np.float64]
 
+LONGEST_FORMULA: Final = 24
 NO_NUMBERS: Final = np.empty(0)
 
 
@@ -93,7 +94,8 @@ class KeyTarget(GestureHolder):
             )
 
         words = f"Set the {self._field.replace('_', ' ')} of"
-        self.gesture(self.document.label_of(words, selection)).preview(changes)
+        label = f"{self.document.label_of(words, selection)} ({_short(formula.text.strip())})"
+        self.gesture(label).preview(changes, label=label)
 
     def _numbers(self, formula: Formula, channel: Channel, keys: Run) -> Floats:
         factor = _factor(channel, self._field)
@@ -101,6 +103,10 @@ class KeyTarget(GestureHolder):
         before = stored * factor
         wanted = formula(before, keys["time"], keys["value"] * factor_of(channel.unit))
         return stored_from_shown(wanted, before, stored, factor)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= LONGEST_FORMULA else f"{text[: LONGEST_FORMULA - 1]}…"
 
 
 def _factor(channel: Channel, field: str) -> float:

@@ -9,8 +9,8 @@ from app.actions.popups import pop_up_menu
 from app.actions.row import A_CHANNEL, SELECTED_KEYS, Action
 from model import edits
 from model.clipboard import keys_from_text, text_from_keys
-from model.document import added_keys
-from model.labels import counted, keys_text, label_of
+from model.document import Splice, added_keys
+from model.labels import channels_text, counted, keys_text, label_of
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
@@ -52,18 +52,17 @@ def _paste(how: Paste, window: "MainWindow") -> None:
     session = window.session
     try:
         copied = keys_from_text(QGuiApplication.clipboard().text())
-        window.document.do(
-            f"Paste {counted(copied.key_count, 'key')}",
-            lambda clip: edits.paste(
-                clip,
-                copied,
-                session.playhead if how.at_playhead else None,
-                active=session.active,
-                replace=how.replace,
-                onto_active=how.onto_active,
-            ),
-            selection=added_keys,
+        changes = edits.paste(
+            window.document.clip,
+            copied,
+            session.playhead if how.at_playhead else None,
+            active=session.active,
+            replace=how.replace,
+            onto_active=how.onto_active,
         )
+        places = channels_text(dict.fromkeys(change.channel for change in changes if isinstance(change, Splice)))
+        label = f"Paste {counted(copied.key_count, 'key')} into {places}"
+        window.document.do(label, lambda clip: changes, selection=added_keys)
     except ValueError as error:
         window.say(f"Nothing was pasted: {error}")
 

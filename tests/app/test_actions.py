@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from app.actions import ACTIONS
 from app.actions.row import Action
+from app.file_menus import samples
 from app.main_window import MainWindow
 from app.menus import MENUS, TOOLBAR, TOOLBAR_MENUS, key_sequences
 from app.questions import Answer
@@ -225,3 +226,29 @@ def test_text_that_is_no_keys_pastes_nothing_and_says_so(window: MainWindow) -> 
     window.actions_by_id["edit.paste"].run()
     assert window.undo_stack.count() == 0
     assert "no keys" in window.status.message.text()
+
+
+def test_a_paste_says_in_the_history_where_to(window: MainWindow) -> None:
+    window.session.active = window.document.clip.channel("root.rx")
+    window.actions_by_id["edit.select_all"].run()
+    window.session.selection = window.session.selection.with_only([window.session.active])
+    window.actions_by_id["edit.copy"].run()
+    window.session.playhead = 0.25
+    window.actions_by_id["edit.paste"].run()
+    assert window.undo_stack.undoText() == "Paste 2 keys into root.rx"
+
+
+def test_back_and_forward_can_be_chosen_only_where_they_lead_somewhere(qtbot: QtBot, window: MainWindow) -> None:
+    back, forward = window.actions_by_id["view.back"], window.actions_by_id["view.forward"]
+
+    def possible() -> tuple[bool, bool]:
+        return back.isEnabled(), forward.isEnabled()
+
+    window.open_file(str(samples()[0]))
+    qtbot.waitUntil(lambda: possible() == (False, False))
+    back.run()
+    assert window.status.message.text() == "Back: the view has not been moved"
+    window.actions_by_id["view.zoom_in"].run()
+    qtbot.waitUntil(lambda: possible() == (True, False))
+    back.run()
+    qtbot.waitUntil(lambda: possible() == (False, True))

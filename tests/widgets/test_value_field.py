@@ -74,7 +74,7 @@ def test_a_number_typed_is_seen_while_typing_and_is_one_undo_step(inspector, doc
     assert values(document)[1] == 12
     assert not edits
     QTest.keyClick(inspector.key.fields["value"], Key.Key_Return)
-    assert [edit.label for edit in edits] == ["Set the value of 1 key of root.tx"]
+    assert [edit.label for edit in edits] == ["Set the value of 1 key of root.tx (12)"]
     document.apply(edits[0].inverse())
     assert values(document) == [THIRD, 2, 4, 8]
 
