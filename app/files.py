@@ -71,7 +71,7 @@ class Files(QObject):
         try:
             opened = open_clip(path, skeleton)
         except FormatError as error:
-            self._window.questions.tell_error(f"{display_name(path)} cannot be opened", str(error))
+            self._window.questions.tell_error(f"{display_name(path)} cannot be opened", error.advice)
             return False
         self.show_opened(opened)
         return True
@@ -235,7 +235,7 @@ class Files(QObject):
         try:
             opened = open_clip(self.path)
         except FormatError as error:
-            self._window.questions.tell_error(f"{self.name} cannot be read again", str(error))
+            self._window.questions.tell_error(f"{self.name} cannot be read again", error.advice)
             return False
         playhead = self._window.session.playhead
         self.show_opened(opened)

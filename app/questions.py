@@ -148,11 +148,16 @@ class Questions:
 
     def tell_error(self, heading: str, text: str) -> None:
         """Something did not work: what, where, and what to do about it."""
-        _run(self._box(Icon.Critical, heading, text))
+        self._tell(Icon.Critical, heading, text)
 
     def tell_warning(self, heading: str, text: str) -> None:
         """Something worked, but not wholly."""
-        _run(self._box(Icon.Warning, heading, text))
+        self._tell(Icon.Warning, heading, text)
+
+    def _tell(self, icon: QMessageBox.Icon, heading: str, text: str) -> None:
+        box = self._box(icon, heading, text)
+        box.setStandardButtons(Standard.Ok)  # Qt's own, added when the box opens, would come with an icon
+        _run(box)
 
     def _box(self, icon: QMessageBox.Icon, heading: str, text: str) -> QMessageBox:
         box = QMessageBox(icon, "Hermite", heading, Standard.NoButton, self._parent)

@@ -56,11 +56,11 @@ def _fill(
     from app.clip_file import open_clip
     from model.formats import FormatError
 
-    opened, problem = None, ""
+    opened, problem, advice = None, "", ""
     try:
         opened = open_clip(path or str(FIRST_SAMPLE), skel)
     except FormatError as error:
-        problem = str(error)
+        problem, advice = str(error), error.advice
     try:
         window.assemble(opened=opened)
     except Exception:
@@ -71,7 +71,7 @@ def _fill(
         print(problem, file=sys.stderr)
         QApplication.exit(2)
     elif problem:
-        QTimer.singleShot(0, window, partial(window.questions.tell_error, "The clip cannot be opened", problem))
+        QTimer.singleShot(0, window, partial(window.questions.tell_error, "The clip cannot be opened", advice))
     elif first_picture is not None:
         FirstPaint(window.view.viewport(), partial(first_picture, window))
 

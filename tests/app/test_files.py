@@ -71,6 +71,15 @@ def test_a_file_that_cannot_be_read_changes_nothing_and_is_named(opened: MainWin
     assert "broken.hermite:2" in answers_of(opened).told[0]
 
 
+@pytest.mark.parametrize("data", ["hermite 1\nnonsense\n", "animation {\n range 0 1\n numchannels x", "", "no clip"])
+def test_a_message_on_a_bad_file_says_what_to_do(window: MainWindow, tmp_path: Path, data: str) -> None:
+    bad = tmp_path / "bad.anim"
+    bad.write_text(data)
+    assert not window.open_file(str(bad))
+    (told,) = answers_of(window).told
+    assert any(word in told for word in ("; ", "Mend that place", "Choose another file"))
+
+
 @pytest.mark.parametrize(
     ("answer", "gone", "saved"),
     [

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QLabel, QMessageBox, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QLabel, QMessageBox, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.questions import Answer, Questions, format_filters, listed
@@ -126,3 +126,17 @@ def test_what_changes_the_motion_is_told_apart_from_what_changes_the_editing() -
         "•  the name of lamp is lost",
     ]
     assert "motion changes" not in listed(LOST[1:])
+
+
+def test_no_button_wears_an_icon_of_the_style(questions: Questions) -> None:
+    icons: list[bool] = []
+
+    def look(dialog: QDialog) -> None:
+        buttons = dialog.findChildren(QPushButton)
+        icons.extend(button.icon().isNull() for button in buttons)
+        QTest.keyClick(dialog, Qt.Key.Key_Escape)
+
+    for tell in (questions.tell_error, questions.tell_warning):
+        in_the_dialog(look)
+        tell("Not opened", NAME)
+    assert icons == [True, True]
