@@ -353,7 +353,7 @@ def test_among_very_many_selected_keys_none_is_far_from_a_mark(make: Make) -> No
     assert marked[cells_of(run, window)].all()
 
 
-def cells_of(run: Run, window: Window) -> tuple[np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+def cells_of(run: Run, window: Window) -> tuple[np.ndarray, np.ndarray]:
     column = np.floor(run["time"] * (window.px_per_second / CELL)) - np.floor(window.t0 * window.px_per_second / CELL)
     row = np.floor((window.y_from_value(run["value"]) - window.top) / CELL)
     return column.astype(np.intp) + 1, row.astype(np.intp) + 1
