@@ -178,7 +178,7 @@ class MainWindow(QMainWindow):
         self.document.replace(clip)
         self.session.playhead = clip.start
         self.session.active = clip.channels[0] if clip.channels else None
-        self.view.frame_all()
+        self.view.frame_clip()
 
     def activate(self, channel: "Channel") -> None:
         """Make *channel* the active one and show it if it was hidden."""

@@ -84,7 +84,7 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
     _restore_layout(window)
     watcher.refresh()
     window.refresh_title()
-    window.view.frame_all()
+    window.view.frame_clip()
     _hand_keyboard_back(window)
     window.view.setFocus()
     QTimer.singleShot(0, window, partial(_settle, window))

@@ -15,7 +15,7 @@ from model.document import Document
 from model.keyframe import KeyGoneError
 from model.sampling import Window
 from widgets.canvas import Canvas
-from widgets.fitting import active_fitted, all_fitted, selection_fitted
+from widgets.fitting import active_fitted, all_fitted, clip_fitted, selection_fitted
 from widgets.graph import DrawnHandle, Frame, Spot
 from widgets.guard import guarded
 from widgets.hit_test import Hit
@@ -226,6 +226,10 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         self._last_step = -ONE_STEP
         self.set_view(all_fitted(self.document))
 
+    def frame_clip(self) -> None:
+        """Show all keys and the clip's range, as a clip is shown that has just been opened; nothing to go back to."""
+        self.set_view(clip_fitted(self.document), remember=False)
+
     def frame_selection(self) -> None:
         """Show the selected keys; if there are none all of the active channel, else everything."""
         self._last_step = -ONE_STEP
@@ -271,7 +275,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
     def _on_replaced(self) -> None:
         self._history = ViewHistory()
         self._empty = not self.document.clip.channels
-        self.set_view(all_fitted(self.document), remember=False)
+        self.set_view(clip_fitted(self.document), remember=False)
 
     def _on_membership(self) -> None:
         if self._empty and self.document.clip.channels:

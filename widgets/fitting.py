@@ -12,12 +12,27 @@ from widgets.view_range import ViewRange, fitted
 MARGINS: Final = (0.04, 0.10)
 # Around a lone selected key its neighbours are shown too, so that something of the curve is seen.
 ALONE: Final = 1
+# A clip's range is shown with its keys up to so many times their extent.
+WIDEST_RANGE: Final = 5.0
 
 
 def all_fitted(document: Document) -> ViewRange:
     """The shown channels from the first key to the last, lowest to highest; the clip's range if there is no key."""
     clip = document.clip
     return _fitted_channels(clip, document.session.shown_channels(clip) or clip.channels)
+
+
+def clip_fitted(document: Document) -> ViewRange:
+    """All shown keys and the clip's range too, so that both its ends can be taken; for a clip that is opened.
+
+    A range so wide that the keys would be lost in it is left out.
+    """
+    shown, clip = all_fitted(document), document.clip
+    keys = clip.extent()
+    if keys is None or not clip.end - clip.start <= WIDEST_RANGE * (keys[1] - keys[0]):
+        return shown
+    t0, t1 = min(keys[0], clip.start), max(keys[1], clip.end)
+    return fitted(t0, t1, 0.0, 1.0, MARGINS)._replace(v0=shown.v0, v1=shown.v1)
 
 
 def active_fitted(document: Document) -> ViewRange | None:

@@ -386,3 +386,13 @@ def test_a_skeleton_of_another_body_is_refused_with_both_numbers(window: MainWin
     assert not window.open_file(str(skeleton))
     assert "6 channels" in answers_of(window).told[0]
     assert "the clip has 3" in answers_of(window).told[0]
+
+
+def test_a_clip_is_opened_with_both_ends_of_its_range_in_sight(window: MainWindow, tmp_path: Path) -> None:
+    file, keys = tmp_path / "walk.anim", make_run([0.0, 1.2], [0.0, 1.0])
+    file.write_bytes(write_bytes(Clip([Channel("channel 0", keys)], end=2.4), "anim"))
+    assert window.open_file(str(file))
+    assert window.view.view_range.t0 < 0.0 < 2.4 < window.view.view_range.t1
+    file.write_bytes(write_bytes(Clip([Channel("channel 0", keys)], end=1e6), "anim"))
+    assert window.open_file(str(file))
+    assert window.view.view_range.t1 < 2.0, "the keys would be one line"
