@@ -39,7 +39,7 @@ class Bounds(NamedTuple):
     @property
     def center(self) -> tuple[float, float]:
         """(time, value) in the middle."""
-        return self.t0 + (self.t1 - self.t0) / 2, self.v0 + (self.v1 - self.v0) / 2
+        return self.t0 / 2 + self.t1 / 2, self.v0 / 2 + self.v1 / 2  # finite however far apart
 
     def at(self, side: tuple[int, int]) -> tuple[float, float]:
         """(time, value) of an edge or corner; of the middle on an axis that it does not move."""
