@@ -279,17 +279,18 @@ class Rows:
         """Move what follows in the row, so that *come* keys have room where *gone* were."""
         held = self.held(row)
         new_held = held + come - gone
+        tail_stays = place + come < new_held
         for grid in (self.number_grid, self.mark_grid, self.id_grid[None]):
             line = grid[:, row]
-            line[:, place + come : new_held] = line[:, place + gone : held]
+            if tail_stays:
+                line[:, place + come : new_held] = line[:, place + gone : held]
+            # The slots that fall free repeat the last key; the spare ones do so already, if it stays the last.
+            if new_held < held and (tail_stays or come == 0):
+                line[:, new_held : held if tail_stays else self.width] = line[:, new_held - 1 : new_held]
         self.first[row + 1 :] += come - gone
         self.size += come - gone
-        if place + come < new_held:
-            self._repeat_last(row, row + 1, new_held, new_held)
-            if place == 0 and come == 0:
-                self.starts[row] = float(self.number_grid[TIME, row, 0])
-        elif come == 0:
-            self._repeat_last(row, row + 1, new_held, new_held)
+        if place == 0 and come == 0:
+            self.starts[row] = float(self.number_grid[TIME, row, 0])
 
     def _share_out(self, rank0: int, rank1: int, run: Run) -> tuple[int, int]:
         """Replace, and fill as many rows around as it takes evenly; make new rows if they are too full or too empty."""
