@@ -55,7 +55,7 @@ _TEXT_BYTES: Final = bytes(c for c in range(256) if c >= 32 and c != 127) + b"\t
 
 def sniff(data: bytes) -> str:
     """The name of the format of *data* in FORMATS, or what other kind of file it is; empty if nobody knows."""
-    head = data[: 1 << 16].removeprefix(_MARK).lstrip(b" \t\r\n")
+    head = data[:_PROBE].removeprefix(_MARK).lstrip(b" \t\r\n")
     for name, row in FORMATS.items():
         if row.begins.match(head):
             return name

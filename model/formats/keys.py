@@ -70,10 +70,11 @@ def _piece(data: bytes, start: int, end: int, words_in: Words, words_out: Words,
     """
     cut = end if end - start <= _PIECE else data.find(b"\n", start + _PIECE, end)
     cut = end if cut < 0 else cut
-    if cut - start > _SMALL:
+    if _SMALL < cut - start <= 4 * _PIECE:  # a longer line would take more memory than files may
         piece = columns_of(data[start:cut], words_in, words_out, _FIXED, flag)
         if piece is not None:
             return piece, cut
+    if cut - start > _SMALL:
         cut = _end_of_keys(data, start, end, flag)
     piece = _columns_word_by_word(data[start:cut], words_in, words_out, flag)
     if piece is None:
