@@ -1,11 +1,14 @@
 """A clip's file as found on disk: read, recognised later, told from another version. No Qt: it may run in a worker."""
 
+import errno
 import os
+import stat
 from pathlib import Path
 from typing import NamedTuple
 
 from model.clip import Clip
 from model.formats import read_clip, sniff
+from model.formats.error import MAX_FILE_BYTES
 
 NO_DIGEST = 0  # of a file that changed while it was read: unlike any other
 
@@ -51,10 +54,20 @@ def fingerprint_of(path: str) -> Fingerprint | None:
     if status is None:
         return None
     try:
-        with open(path, "rb") as file:
-            return Fingerprint(*status, hash(file.read()))
+        return Fingerprint(*status, hash(read_regular(path)))
     except OSError:
         return None
+
+
+def read_regular(path: str) -> bytes:
+    """The bytes of the file at *path*; OSError if it is a device or a pipe, which may never end, or too large."""
+    status = os.stat(path)
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(errno.EINVAL, "this is not a regular file")
+    if status.st_size > MAX_FILE_BYTES:
+        raise OSError(errno.EFBIG, f"the file is larger than {MAX_FILE_BYTES >> 20} MiB")
+    with open(path, "rb") as file:
+        return file.read(MAX_FILE_BYTES + 1)
 
 
 def changed_since(path: str, known: Fingerprint | None) -> bool:

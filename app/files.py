@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from app.clip_file import Fingerprint, Opened, changed_since, display_name, fingerprint_of, open_clip
+from app.clip_file import Fingerprint, Opened, changed_since, display_name, fingerprint_of, open_clip, read_regular
 from app.file_menus import SAMPLES_FOLDER
 from app.questions import Answer, home_folder
 from model.channel import Channel
@@ -106,7 +106,7 @@ class Files(QObject):
         """Name the channels by the joints of a .skel, as one step that can be undone."""
         clip = self._window.document.clip
         try:
-            data = Path(skeleton).read_bytes()
+            data = read_regular(skeleton)
             joints = joint_names(data)
         except TextError as fault:
             return self._refuse_skeleton(skeleton, str(fault.in_file(skeleton, data)))

@@ -396,3 +396,16 @@ def test_a_clip_is_opened_with_both_ends_of_its_range_in_sight(window: MainWindo
     file.write_bytes(write_bytes(Clip([Channel("channel 0", keys)], end=1e6), "anim"))
     assert window.open_file(str(file))
     assert window.view.view_range.t1 < 2.0, "the keys would be one line"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes in folders")
+def test_a_pipe_in_the_place_of_a_file_stops_nothing(opened: MainWindow, path: Path, tmp_path: Path) -> None:
+    path.unlink()
+    os.mkfifo(path)
+    opened.files.look_at_disk()
+    assert opened.isWindowModified()
+    assert not opened.save()
+    skeleton = tmp_path / "pipe.skel"
+    os.mkfifo(skeleton)
+    assert not opened.open_file(str(skeleton))
+    assert "not a regular file" in answers_of(opened).told[-1]
