@@ -38,6 +38,8 @@ class Command(NamedTuple):
 
 def run(argv: Sequence[str]) -> int:
     """Do what *argv* (the command's name first) says: 0, or 2 after one sentence on stderr."""
+    if sys.stdout is None:  # closed by whoever called
+        return _refused("there is nowhere to print to: the output is closed")
     try:
         arguments = parser().parse_args(argv)
         COMMANDS[arguments.command].run(arguments)

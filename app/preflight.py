@@ -15,6 +15,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 from typing import NamedTuple
 
 
@@ -110,6 +111,14 @@ def platform_name() -> str:
     return "wayland" if not os.environ.get("DISPLAY") and _wayland_answers() else "xcb"
 
 
+def _known_platforms() -> list[str]:
+    """The platforms that come with the Qt that is installed; none if it cannot be found."""
+    spec = importlib.util.find_spec("PySide6")
+    folders = [Path(place) for place in (spec.submodule_search_locations or [])] if spec else []
+    names = {path.stem for folder in folders for path in (folder / "Qt" / "plugins" / "platforms").glob("libq*.so")}
+    return sorted(name.removeprefix("libq") for name in names)
+
+
 def _x_answers() -> bool:
     """Whether the X server of DISPLAY lets us in; true also when there is no way to ask."""
     try:
@@ -125,6 +134,9 @@ def _x_answers() -> bool:
 
 def display_problem() -> str | None:
     """One sentence when no window can open. Qt itself would abort, and blame a library that is there."""
+    known = _known_platforms()
+    if known and platform_name() not in ("", *known):
+        return f"QT_QPA_PLATFORM is {platform_name()!r}, which Qt does not have here; it has {', '.join(known)}."
     if not sys.platform.startswith("linux") or platform_name() not in ("xcb", "wayland") or _wayland_answers():
         return None
     name = os.environ.get("DISPLAY")

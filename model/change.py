@@ -173,8 +173,8 @@ def _set(change: Setting, touched: Touched) -> Setting:
 
 
 def _text(field: str, value: Any) -> str:
-    if not isinstance(value, str) or not value.isprintable() or len(value) > LONGEST_TEXT:
-        raise ValueError(f"{field} must be a line of at most {LONGEST_TEXT} printable characters")
+    if not isinstance(value, str) or not value.isprintable() or len(value.encode()) > LONGEST_TEXT:
+        raise ValueError(f"{field} must be a line of printable characters, at most {LONGEST_TEXT} bytes of UTF-8")
     return value
 
 

@@ -257,3 +257,14 @@ def test_the_virtual_screen_has_a_window_manager() -> None:
     assert window.frameGeometry().height() > window.geometry().height(), "no title bar: nobody manages windows here"
     window.close()
     assert application
+
+
+def test_a_platform_that_qt_does_not_have_is_named_with_those_it_has() -> None:
+    environment = {**os.environ, "QT_QPA_PLATFORM": "bogus"}
+    done = subprocess.run(
+        [sys.executable, "main.py"], cwd=ROOT, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert "'bogus'" in done.stderr
+    assert "offscreen" in done.stderr
+    assert done.stderr.count("\n") == 1

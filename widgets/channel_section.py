@@ -155,7 +155,11 @@ class ChannelSection(QWidget):
         channel = self._document.session.active
         if channel is not None and unit != channel.unit:
             label = f"Set the unit of {channel.name} to {unit or 'none'}"
-            self._document.do(label, lambda clip: settings([channel], "unit", unit))
+            try:
+                self._document.do(label, lambda clip: settings([channel], "unit", unit))
+            except ValueError as error:
+                self.status.emit(f"{error}")
+                self._show_unit(channel.unit)
         self._measured = None
         self.refresh()
 

@@ -268,3 +268,15 @@ def test_a_picture_is_not_written_over_a_clip(hermite: Hermite, walk: Path, tmp_
     assert (code, out) == (2, "")
     assert error.startswith(f"{target}: not written, since it is a clip")
     assert target.read_bytes() == before
+
+
+def test_a_closed_output_is_told_in_one_sentence() -> None:
+    done = subprocess.run(
+        ["sh", "-c", '"$0" main.py info resources/samples/bounce.hermite >&-', sys.executable],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert done.stderr == "there is nowhere to print to: the output is closed\n"
