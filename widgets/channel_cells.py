@@ -14,6 +14,7 @@ from widgets.channel_rows import TOGGLES, ChannelRows, Column
 from widgets.colors import mix
 from widgets.guard import guarded
 from widgets.theme import Theme
+from widgets.traces import MOST_DASHED
 
 type Index = QModelIndex | QPersistentModelIndex
 
@@ -156,7 +157,8 @@ class ChannelCells(QStyledItemDelegate):
                 channels = enumerate(self._document.clip.channels)
                 self._alike = Counter(theme.channel_color(other, place).rgba() for place, other in channels)
             dash = theme.channel_dash(channel, rank)
-            if dash and self._alike[color.rgba()] > 1:  # as the curves: a second code where the first is not enough
+            # As the curves: a second code where the first is not enough, and never a fabric of dashes.
+            if dash and self._alike[color.rgba()] > 1 and self._alike.total() <= MOST_DASHED:
                 pen.setDashPattern([max(length * 0.4, 0.8) for length in dash])
             self._pens[channel] = pen
         return self._pens[channel]
