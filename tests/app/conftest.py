@@ -109,6 +109,19 @@ def window(make_window: MakeWindow) -> MainWindow:
     return make_window(small_clip())
 
 
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    file = tmp_path / "walk & run.hermite"
+    file.write_bytes(write_bytes(small_clip(), "hermite"))
+    return file
+
+
+@pytest.fixture
+def opened(window: MainWindow, path: Path) -> MainWindow:
+    assert window.open_file(str(path))
+    return window
+
+
 def answers_of(window: MainWindow) -> Answers:
     assert isinstance(window.questions, Answers)
     return window.questions

@@ -1,6 +1,5 @@
 """Opening and saving: what is asked, what is told, what is on the disk afterwards, and the mark in the title."""
 
-import os
 from pathlib import Path
 
 import pytest
@@ -20,19 +19,6 @@ from model.formats import read_clip, write_bytes
 from model.keyframe import make_run
 from model.saving import Durability, SaveError, SaveResult
 from tests.app.conftest import MakeWindow, answers_of, small_clip
-
-
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    file = tmp_path / "walk & run.hermite"
-    file.write_bytes(write_bytes(small_clip(), "hermite"))
-    return file
-
-
-@pytest.fixture
-def opened(window: MainWindow, path: Path) -> MainWindow:
-    assert window.open_file(str(path))
-    return window
 
 
 def change(window: MainWindow) -> None:
@@ -206,15 +192,6 @@ def test_a_name_that_is_being_typed_is_saved_too(opened: MainWindow, path: Path)
     assert read_clip(path).channels[0].name == "hip.tx"
 
 
-def test_a_clip_whose_file_was_damaged_by_another_program_counts_as_unsaved(opened: MainWindow, path: Path) -> None:
-    path.write_text("hermite 1\ngarb")
-    answers_of(opened).answers["reload_changed"] = True
-    opened.files.look_at_disk()
-    assert "cannot be read again" in answers_of(opened).told[0]
-    assert opened.isWindowModified()
-    assert not opened.close()
-
-
 def test_a_file_that_may_not_be_written_is_left_alone(opened: MainWindow, path: Path) -> None:
     before = path.read_bytes()
     path.chmod(0o444)
@@ -280,46 +257,6 @@ def test_a_save_that_the_disk_did_not_confirm_counts_as_unsaved(
     assert opened.isWindowModified()
     opened.undo_stack.undo()
     assert opened.isWindowModified()
-
-
-def test_a_file_that_another_program_wrote_is_not_overwritten_unasked(opened: MainWindow, path: Path) -> None:
-    theirs = write_bytes(Clip(title="theirs"), "hermite")
-    path.write_bytes(theirs)
-    change(opened)
-    assert not opened.save()
-    assert path.read_bytes() == theirs
-    answers_of(opened).answers["overwrite_changed"] = True
-    assert opened.save()
-    assert path.read_bytes() != theirs
-
-
-def test_a_file_that_another_program_wrote_is_offered_once_for_reading_again(opened: MainWindow, path: Path) -> None:
-    path.write_bytes(write_bytes(Clip(title="theirs"), "hermite"))
-    opened.files.look_at_disk()
-    opened.files.look_at_disk()
-    assert answers_of(opened).asked == ["reload_changed"]
-    assert opened.isWindowModified()  # what is shown is not what is on the disk
-    path.write_bytes(write_bytes(Clip(title="theirs again"), "hermite"))
-    answers_of(opened).answers["reload_changed"] = True
-    opened.files.look_at_disk()
-    assert opened.document.clip.title == "theirs again"
-    assert not opened.isWindowModified()
-
-
-def test_a_touched_file_is_no_reason_to_ask(opened: MainWindow, path: Path) -> None:
-    os.utime(path, ns=(1, 1))
-    opened.files.look_at_disk()
-    change(opened)
-    assert opened.save()
-    assert answers_of(opened).asked == []
-
-
-def test_a_file_that_is_gone_makes_the_clip_unsaved_and_saving_brings_it_back(opened: MainWindow, path: Path) -> None:
-    path.unlink()
-    opened.files.look_at_disk()
-    assert opened.isWindowModified()
-    assert opened.save()
-    assert path.exists()
 
 
 def test_reverting_reads_the_file_again(opened: MainWindow) -> None:
@@ -396,16 +333,3 @@ def test_a_clip_is_opened_with_both_ends_of_its_range_in_sight(window: MainWindo
     file.write_bytes(write_bytes(Clip([Channel("channel 0", keys)], end=1e6), "anim"))
     assert window.open_file(str(file))
     assert window.view.view_range.t1 < 2.0, "the keys would be one line"
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes in folders")
-def test_a_pipe_in_the_place_of_a_file_stops_nothing(opened: MainWindow, path: Path, tmp_path: Path) -> None:
-    path.unlink()
-    os.mkfifo(path)
-    opened.files.look_at_disk()
-    assert opened.isWindowModified()
-    assert not opened.save()
-    skeleton = tmp_path / "pipe.skel"
-    os.mkfifo(skeleton)
-    assert not opened.open_file(str(skeleton))
-    assert "not a regular file" in answers_of(opened).told[-1]
