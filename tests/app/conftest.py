@@ -16,6 +16,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.document import Document
 from model.extrapolation import Extrapolation
+from model.formats import write_bytes
 from model.keyframe import make_run
 
 
