@@ -2,7 +2,7 @@
 
 from bisect import bisect_right
 from math import inf, nextafter
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,8 +20,16 @@ _NOWHERE: Span = (inf, -inf, 1.0, 0.0, 0.0, 0.0, 0.0)
 _SPAN_COLUMNS = [D_TIME, A, B, C]
 # Channels of up to so many keys keep their times and spans as Python numbers once values are asked for.
 _KEPT_SPANS = 4096
-# Once one value was sought for so many slots of a longer channel, a table has paid for itself.
-_SLOTS_SOUGHT = 64
+# Once one value was searched for so many slots of a longer channel, a table has paid for itself.
+_SLOTS_SEARCHED = 64
+# How far a value is looked for behind the slot that the table gives.
+_STEPS = 8
+
+type _Numbers = "memoryview[float]"
+# Columns by slot (time, value, a, b, c, d_time), and of the table its slots, its start, its buckets a second, its end.
+type _Seekable = tuple[
+    _Numbers, _Numbers, _Numbers, _Numbers, _Numbers, _Numbers, "memoryview[int]", float, float, float
+]
 
 
 class Spans(NamedTuple):
@@ -49,10 +57,8 @@ class Curve:
         self._table: Table | None = None
         self._extremes: envelope.Extremes | None = None
         self._hit = _NOWHERE
-        self._seen_times: memoryview[float] | None = None
-        self._records = self._rows.numbers.T
-        self._time0, self._time1 = inf, -inf
-        self._sought = 0
+        self._searched = 0
+        self._seekable: _Seekable | None = None
         # All times of a short channel, and those of its spans that were asked for; at the end one that is nowhere.
         self._times_kept: list[float] = []
         self._spans_kept = [_NOWHERE]
@@ -64,8 +70,7 @@ class Curve:
         self.revision += 1
         self._ends = self._table = None
         self._hit = _NOWHERE
-        self._seen_times = None
-        self._sought = 0
+        self._searched, self._seekable = 0, None
         self._times_kept, self._spans_kept = [], [_NOWHERE]
 
     def _the_ends(self) -> Ends:
@@ -96,16 +101,13 @@ class Curve:
 
     def value(self, time: float) -> float:
         """The value at one time, bit for bit that of `evaluate`."""
+        time = float(time)
         span = self._hit
         if not span[0] <= time < span[1]:
-            # Before the first key this is the last entry, in which no time is.
-            span = self._spans_kept[bisect_right(self._times_kept, time) - 1]
-            if not span[0] <= time < span[1]:
-                found = self._seek(float(time))
-                if found is None:
-                    return self._value_outside(float(time))
-                span = found
-            self._hit = span
+            found = self._find(time) if self._times_kept else self._seek(time)
+            if found is None:
+                return self._value_outside(time)
+            span = self._hit = found
         time0, _, d_time, a, b, c, d = span
         u = (time - time0) / d_time
         value = d + u * (c + u * (b + u * a))
@@ -129,43 +131,58 @@ class Curve:
         value = self.value(inner)
         return min(max(value + shift, -LARGEST), LARGEST) if shift else value
 
+    def _find(self, time: float) -> Span | None:
+        """The span of a short channel that *time* lies in; None outside the keys."""
+        # Before the first key this is the last entry, in which no time is.
+        span = self._spans_kept[bisect_right(self._times_kept, time) - 1]
+        return span if span[0] <= time < span[1] else self._search(time)
+
     def _seek(self, time: float) -> Span | None:
-        """The span that *time* lies in; None outside the keys. Short channels keep it, and all their times."""
-        rows, times = self._rows, self._seen_times
-        if times is None:
-            times = self._begin_seeking()
-        if not self._time0 <= time <= self._time1:
+        """The span of a long channel that *time* lies in; None outside the keys."""
+        seekable = self._seekable
+        if seekable is not None:
+            times, values, a, b, c, d_times, last, start, per_second, end = seekable
+            if start <= time < end:
+                # As Table.slots finds many: one of the next few, or else by bisection.
+                slot = last[int((time - start) * per_second)]
+                stop = slot + _STEPS
+                while times[slot + 1] <= time:
+                    slot += 1
+                    if slot == stop:
+                        return self._search(time)
+                return times[slot], times[slot + 1], d_times[slot], a[slot], b[slot], c[slot], values[slot]
+        return self._search(time)
+
+    def _search(self, time: float) -> Span | None:
+        """The same by bisection. Short channels keep what they found; long ones get a table for the next times."""
+        rows = self._rows
+        if not rows.size or not rows.times[0] <= time <= rows.times[-1]:
             return None
-        table = self._table
-        if time == self._time1:
-            slot, time1 = len(times) - 1, nextafter(time, inf)
-        else:
-            # Spare slots repeat the key before them, so that the next slot is the next key's.
-            if table is not None and table.usable:
-                slot = table.slot(times, time)
-            else:
-                begin = (bisect_right(rows.starts, time) - 1) * rows.width
-                slot = bisect_right(times, time, begin, begin + rows.width) - 1
-                self._sought += _SLOTS_SOUGHT
-                if self._sought > len(times) > _KEPT_SPANS:
-                    self._table = Table(rows)
-            time1 = times[slot + 1]
-        time0, value, _, _, a, b, c, d_time = self._records[slot].tolist()
+        rank = rows.rank_at(time) - 1
+        slot = rows.slot(rank)
+        time0, value, _, _, a, b, c, d_time = rows.numbers[:, slot].tolist()
+        time1 = float(rows.times[rows.slot(rank + 1)]) if rank + 1 < rows.size else nextafter(time0, inf)
         span = (time0, time1, d_time, a, b, c, value)
-        if len(self._spans_kept) > 1:
-            self._spans_kept[bisect_right(self._times_kept, time) - 1] = span
+        if rows.size <= _KEPT_SPANS:
+            if not self._times_kept:
+                self._spans_kept = [_NOWHERE] * (rows.size + 1)
+                self._times_kept = rows.times[rows.slots(np.arange(rows.size))].tolist()
+            self._spans_kept[rank] = span
+        else:
+            self._searched += _SLOTS_SEARCHED
+            if self._searched > len(rows.ids):
+                self._make_seekable()
         return span
 
-    def _begin_seeking(self) -> "memoryview[float]":
-        """Lay out what `_seek` reads; the times."""
+    def _make_seekable(self) -> None:
+        """Lay out what `_seek` reads: numbers come out of memoryviews more quickly than out of arrays."""
         rows = self._rows
-        self._time0, self._time1 = (float(rows.times[0]), float(rows.times[-1])) if rows.size else (inf, -inf)
-        # Numbers come out of a memoryview twice as quickly as out of an array.
-        self._seen_times, self._records = memoryview(rows.times), rows.numbers.T
-        if 0 < rows.size <= _KEPT_SPANS:
-            self._spans_kept = [_NOWHERE] * (rows.size + 1)
-            self._times_kept = rows.times[rows.slots(np.arange(rows.size))].tolist()
-        return self._seen_times
+        table = self._table = self._table or Table(rows)
+        if table.usable:
+            columns = (TIME, VALUE, A, B, C, D_TIME)
+            times, values, a, b, c, d_times = (cast("_Numbers", memoryview(rows.numbers[i])) for i in columns)
+            last, end = memoryview(table.last), float(rows.times[-1])
+            self._seekable = (times, values, a, b, c, d_times, last, table.start, table.per_second, end)
 
     def slopes(self, times: ArrayLike, side: str = "out") -> Floats:
         """The slopes at *times* in value per second; at a corner the one to the right ("out") or left ("in")."""

@@ -21,10 +21,10 @@ class Table:
     def __init__(self, rows: Rows) -> None:
         times = rows.times
         buckets = max(16, 2 * len(times))
-        self._start = float(times[0])
-        length = float(times[-1]) - self._start
-        self._per_second = buckets / length if length else inf
-        self.usable = 0.0 < self._per_second < inf
+        self.start = float(times[0])
+        length = float(times[-1]) - self.start
+        self.per_second = buckets / length if length else inf
+        self.usable = 0.0 < self.per_second < inf
         if not self.usable:
             return
         with np.errstate(all="ignore"):
@@ -36,24 +36,16 @@ class Table:
                 counts[first : first + len(found)] += found.astype(np.int32)
         np.cumsum(counts, out=counts)
         # A bucket's own keys come after those of the buckets before it: move on by one bucket.
-        self._last = np.empty_like(counts)
-        self._last[0], self._last[1:] = 0, counts[:-1] - 1
-        np.maximum(self._last, 0, out=self._last)
-        self._last_seen = memoryview(self._last)
+        self.last = np.empty_like(counts)
+        self.last[0], self.last[1:] = 0, counts[:-1] - 1
+        np.maximum(self.last, 0, out=self.last)
 
     def _buckets(self, times: Floats) -> NDArray[np.int64]:
-        return ((times - self._start) * self._per_second).astype(np.int64)
-
-    def slot(self, all_times: "memoryview[float]", time: float) -> int:
-        """The slot of the last key at or before *time*, which lies between the first and the last of *all_times*."""
-        found: int = self._last_seen[int((time - self._start) * self._per_second)]
-        while all_times[found + 1] <= time:
-            found += 1
-        return found
+        return ((times - self.start) * self.per_second).astype(np.int64)
 
     def slots(self, all_times: Floats, times: Floats) -> Slots:
         """The slot of the last key at or before each of *times*, which lie among *all_times* of the rows."""
-        found: Slots = self._last.take(self._buckets(times), mode="clip").astype(np.int64)
+        found: Slots = self.last.take(self._buckets(times), mode="clip").astype(np.int64)
         # Buckets grow with time however they are rounded, so the key is this one or one of the next few.
         found += all_times.take(found + 1, mode="clip") <= times
         found += all_times.take(found + 1, mode="clip") <= times

@@ -116,11 +116,25 @@ def test_many_times_are_found_as_one_is(n: int, order: str) -> None:
 
 
 def test_keys_crowded_in_a_corner_are_found_too() -> None:
-    times = np.concatenate([np.geomspace(1e-9, 1.0, 2000), [1e6]])
-    channel = Channel("x", make_run(times, np.arange(2001.0), 0, 0, TangentRule.LINEAR, TangentRule.STEP))
+    times = np.concatenate([np.geomspace(1e-9, 1.0, 6000), [1e6]])
+    channel = Channel("x", make_run(times, np.arange(6001.0), 0, 0, TangentRule.LINEAR, TangentRule.STEP))
     many = np.concatenate([times, np.geomspace(1e-9, 1e6, 20_000)])
     expected = np.searchsorted(times, many, "right") - 1.0
     assert (channel.evaluate(many) == expected).all()
+    assert one_by_one(channel, many[::7]) == expected[::7].tolist()
+
+
+def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them() -> None:
+    n = 2 * curve._KEPT_SPANS
+    channel = Channel("x", random_run(4, n), post=Extrapolation.CYCLE)
+    times = channel.run()["time"]
+    asked = np.concatenate(
+        [np.random.default_rng(1).uniform(-1.0, times[-1] + 3.0, 3000), times[:: n // 500], times[-1:]]
+    )
+    expected = channel.evaluate(asked)
+    for _ in range(2):
+        assert bits(one_by_one(channel, asked)) == bits(expected)
+    assert channel._seekable is not None
 
 
 def test_what_is_kept_for_speed_never_outlives_an_edit() -> None:
