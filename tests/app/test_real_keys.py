@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from contextlib import suppress
 
 import pytest
 from PySide6.QtWidgets import QApplication
@@ -38,6 +39,8 @@ def test_each_key_of_the_default_map_reaches_its_action(
 ) -> None:
     called: list[str] = []
     monkeypatch.setattr(WindowAction, "run", lambda action: called.append(action.row.id))
+    # Whether an action can run now is another test's matter; nothing may take it back in the middle of this one.
+    monkeypatch.setattr(WindowAction, "refresh", lambda action, *_: None)
     for action in window.actions_by_id.values():
         action.setEnabled(True)
     window.activateWindow()
@@ -46,5 +49,6 @@ def test_each_key_of_the_default_map_reaches_its_action(
     for keys, wanted in DEFAULT_KEYS.items():
         called.clear()
         subprocess.run(["xdotool", "key", pressed(keys)], check=True, timeout=20)
-        qtbot.waitUntil(lambda: bool(called), timeout=5000)
+        with suppress(qtbot.TimeoutError):
+            qtbot.waitUntil(lambda: bool(called), timeout=5000)
         assert called == [wanted], keys
