@@ -39,9 +39,17 @@ def run_check(path: str | None, skel: str | None, started: float) -> int:
     watchdog.daemon = True
     watchdog.start()
 
+    def age() -> float:
+        return process_age() or perf_counter() - started
+
+    frames: list[float] = []
+
+    def first_frame() -> None:
+        frames.append(age())
+
     def first_picture(window: "MainWindow") -> None:
         watchdog.cancel()
-        age, work = process_age() or perf_counter() - started, process_time()
+        picture, work = age(), process_time()
         # Not above: the import would count into the time.
         from importlib.metadata import version
 
@@ -52,11 +60,11 @@ def run_check(path: str | None, skel: str | None, started: float) -> int:
         print(*(f"{name} {version(name)}" for name in PACKAGES), sep=", ")
         print(f"screen {QApplication.platformName()} {size.width()}x{size.height()} at {screen.devicePixelRatio():g}")
         print(f"{window.files.name}: {len(clip.channels)} channels, {clip.key_count} keys")
-        print(f"first picture {age:.2f} s after the start, {work:.2f} s of them at work")
+        print(f"first picture {picture:.2f} s after the start, {work:.2f} s of them at work; frame {frames[0]:.2f} s")
         QApplication.exit(0)
 
     try:
-        return run_window(path, skel, first_picture=first_picture)
+        return run_window(path, skel, first_picture=first_picture, first_frame=first_frame)
     finally:
         watchdog.cancel()
 

@@ -268,12 +268,19 @@ def make_application() -> QApplication:
     return app
 
 
-def run_window(path: str | None, skel: str | None, *, first_picture: Callable[[MainWindow], None] | None = None) -> int:
+def run_window(
+    path: str | None,
+    skel: str | None,
+    *,
+    first_picture: Callable[[MainWindow], None] | None = None,
+    first_frame: Callable[[], None] | None = None,
+) -> int:
     """Open the window on the clip at *path*, or on a sample, and run until it is closed; the exit code.
 
     *first_picture* is called once, after the graph has been painted with the clip in it; with it a file that cannot
-    be read ends the program with code 2 instead of a dialog.
+    be read ends the program with code 2 instead of a dialog. *first_frame* is called before that, when the empty
+    window has been painted.
     """
     from app.start import start
 
-    return start(path, skel, first_picture)
+    return start(path, skel, first_picture, first_frame)

@@ -1,6 +1,7 @@
 """What must be there before Qt is touched, told in one sentence with the command that mends it.
 
-Standard library only: this runs where nothing is installed yet.
+Standard library only: this runs where nothing is installed yet. What only a failure needs is imported then: every
+start of the window passes here.
 
     python -m app.preflight            report what is missing
     python -m app.preflight --install  offer to install it (asks at a terminal)
@@ -10,9 +11,6 @@ Standard library only: this runs where nothing is installed yet.
 import ctypes
 import importlib.util
 import os
-import shutil
-import socket
-import subprocess
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -88,6 +86,8 @@ def missing_programs() -> list[Need]:
     """The programs that the window tests need and this Linux lacks."""
     if not sys.platform.startswith("linux"):
         return []
+    import shutil
+
     return [need for need in TEST_PROGRAMS if shutil.which(need.file) is None]
 
 
@@ -95,6 +95,8 @@ def _wayland_answers() -> bool:
     name = os.environ.get("WAYLAND_DISPLAY")
     if not name:
         return False
+    import socket
+
     with socket.socket(socket.AF_UNIX) as wire:
         try:
             wire.connect(os.path.join(os.environ.get("XDG_RUNTIME_DIR", ""), name))
@@ -152,6 +154,8 @@ def display_problem() -> str | None:
 
 def install_command(needs: Iterable[Need]) -> list[str] | None:
     """The command that brings these needs on this system, or None where no known package manager is."""
+    import shutil
+
     for manager, command in PACKAGE_MANAGERS:
         if shutil.which(command[0]):
             packages = sorted({getattr(need, manager) for need in needs})
@@ -182,6 +186,9 @@ def _may_install(needs: list[Need], *, tests: bool, offer: bool) -> bool:
     if tests:
         if os.geteuid() == 0:
             return True
+        import shutil
+        import subprocess
+
         quiet_sudo = ["sudo", "-n", "true"]
         return (
             os.environ.get("CI") == "true"
@@ -198,6 +205,8 @@ def _install(needs: list[Need]) -> None:
     command = install_command(needs)
     if command is None:
         return
+    import subprocess
+
     print("Installing:", *command, flush=True)
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     if "apt-get" in command:

@@ -1,5 +1,6 @@
 """The first second of the program: the frame at once, then the clip, then the first picture."""
 
+import os
 import signal
 import sys
 from collections.abc import Callable
@@ -20,10 +21,14 @@ if TYPE_CHECKING:
 
 type FirstPicture = Callable[[MainWindow], None]
 
+# A window that starts minimised or on another desktop may not be painted for long; in ms.
+FRAME_WAIT = 60
 FIRST_SAMPLE = Path(__file__).resolve().parent.parent / "resources" / "samples" / "bounce.hermite"
 
 
-def start(path: str | None, skel: str | None, first_picture: FirstPicture | None) -> int:
+def start(
+    path: str | None, skel: str | None, first_picture: FirstPicture | None, first_frame: Callable[[], None] | None
+) -> int:
     """Run the program; see app.main_window.run_window."""
     from app.crash_reports import CrashReports
 
@@ -37,7 +42,9 @@ def start(path: str | None, skel: str | None, first_picture: FirstPicture | None
         window.show()
         closer = SignalCloser(window)
         # Only when the frame is on the screen are numpy, pyqtgraph and the clip loaded: that takes three times as long.
-        QTimer.singleShot(0, window, partial(_fill, window, reports, path, skel, first_picture))
+        FirstPaint(
+            window, partial(_fill, window, reports, path, skel, first_picture, first_frame), at_latest=FRAME_WAIT
+        )
         code = app.exec()
         closer.end()
         if window.ready:
@@ -51,8 +58,18 @@ def start(path: str | None, skel: str | None, first_picture: FirstPicture | None
 
 
 def _fill(
-    window: MainWindow, reports: "CrashReports", path: str | None, skel: str | None, first_picture: FirstPicture | None
+    window: MainWindow,
+    reports: "CrashReports",
+    path: str | None,
+    skel: str | None,
+    first_picture: FirstPicture | None,
+    first_frame: Callable[[], None] | None,
 ) -> None:
+    if first_frame is not None:
+        first_frame()
+    from app.quick_start import import_pyqtgraph
+
+    import_pyqtgraph()
     from app.clip_file import open_clip
     from model.formats import FormatError
 
@@ -77,19 +94,26 @@ def _fill(
 
 
 class FirstPaint(QObject):
-    """Calls back once, when *widget* has been painted for the first time."""
+    """Calls back once, when *widget* has been painted for the first time, or *at_latest* after so many ms."""
 
-    def __init__(self, widget: QWidget, call: Callable[[], None]) -> None:
+    def __init__(self, widget: QWidget, call: Callable[[], None], at_latest: int | None = None) -> None:
         super().__init__(widget)
-        self._call = call
+        self._call: Callable[[], None] | None = call
         widget.installEventFilter(self)
+        if at_latest is not None:
+            QTimer.singleShot(at_latest, self, self._go)
 
     @guarded(False)
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() == QEvent.Type.Paint:
             watched.removeEventFilter(self)
-            QTimer.singleShot(0, self, self._call)
+            QTimer.singleShot(0, self, self._go)
         return False
+
+    def _go(self) -> None:
+        call, self._call = self._call, None
+        if call is not None:
+            call()
 
 
 class SignalCloser(QObject):
@@ -101,19 +125,17 @@ class SignalCloser(QObject):
         self._notifier: QSocketNotifier | None = None
         if sys.platform == "win32":
             return
-        import socket
-
         # Python sees a signal only when it runs; the byte that it writes here wakes Qt, and with it Python.
-        self._read_end, self._write_end = socket.socketpair()
-        self._write_end.setblocking(False)
-        signal.set_wakeup_fd(self._write_end.fileno())
-        self._notifier = QSocketNotifier(self._read_end.fileno(), QSocketNotifier.Type.Read, self)
+        self._read_end, self._write_end = os.pipe()
+        os.set_blocking(self._write_end, False)
+        signal.set_wakeup_fd(self._write_end)
+        self._notifier = QSocketNotifier(self._read_end, QSocketNotifier.Type.Read, self)
         self._notifier.activated.connect(self._wake)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self._close)
 
     def _wake(self) -> None:
-        self._read_end.recv(64)
+        os.read(self._read_end, 64)
 
     def _close(self, _number: int, _frame: object) -> None:
         QTimer.singleShot(0, self._window, self._window.close)
@@ -125,6 +147,6 @@ class SignalCloser(QObject):
             signal.set_wakeup_fd(-1)
             for number in (signal.SIGINT, signal.SIGTERM):
                 signal.signal(number, signal.SIG_DFL)
-            self._read_end.close()
-            self._write_end.close()
+            os.close(self._read_end)
+            os.close(self._write_end)
             self._notifier = None
