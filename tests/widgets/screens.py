@@ -23,6 +23,8 @@ class Screen(QObject):
         super().__init__()
         self.view = view
         self.image = blank(view, ratio)
+        # What the view asks its screen for; an image alone would be painted with the ratio of the real screen.
+        view.viewport().devicePixelRatioF = lambda: ratio  # type: ignore[method-assign]
         self._asked = QRegion(view.viewport().rect())
         self._rendering = False
         view.viewport().installEventFilter(self)
