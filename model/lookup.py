@@ -1,18 +1,21 @@
 """Finding the keys that many times follow: by bisection, by merging, or by a table of buckets of equal length."""
 
 from math import inf
+from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
 
 from model.hermite import Floats
-from model.rows import Rows, Slots
+from model.rows import D_TIME, VALUE, A, B, C, Rows, Slots
 
 # Times worked on together; their columns stay in the processor's cache.
 AT_A_TIME = 8192
 # A table is worth its making for at least this many times, and at least one for so many slots.
 TABLE_TIMES = 4096
 SLOTS_A_TIME = 4
+# One span as read in one go: (time0, time1, d_time, a, b, c, d).
+RECORD = Struct("7d8x")
 
 
 class Table:
@@ -53,6 +56,17 @@ class Table:
         if behind.any():
             found[behind] = all_times.searchsorted(times[behind], "right") - 1
         return found
+
+
+def span_records(rows: Rows) -> Floats:
+    """The span behind the key of each slot as a RECORD: (slots, 8)."""
+    records = np.zeros((len(rows.times), RECORD.size // 8))
+    records[:, 0] = rows.times
+    # Where spare slots repeat a key, the span is that of the last of them; the others have no length.
+    records[:-1, 1], records[-1, 1] = rows.times[1:], inf
+    for place, column in enumerate((D_TIME, A, B, C, VALUE), start=2):
+        records[:, place] = rows.numbers[column]
+    return records
 
 
 def merged_slots(all_times: Floats, times: Floats) -> tuple[int, Slots]:

@@ -124,8 +124,12 @@ def test_keys_crowded_in_a_corner_are_found_too() -> None:
     assert one_by_one(channel, many[::7]) == expected[::7].tolist()
 
 
-def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them() -> None:
+@pytest.mark.parametrize("recorded", [True, False])
+def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them(
+    monkeypatch: pytest.MonkeyPatch, recorded: bool
+) -> None:
     n = 2 * curve._KEPT_SPANS
+    monkeypatch.setattr(curve, "_RECORD_SLOTS", 16 * n if recorded else 0)
     channel = Channel("x", random_run(4, n), post=Extrapolation.CYCLE)
     times = channel.run()["time"]
     asked = np.concatenate(
@@ -134,7 +138,7 @@ def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them() -> None
     expected = channel.evaluate(asked)
     for _ in range(2):
         assert bits(one_by_one(channel, asked)) == bits(expected)
-    assert channel._seekable is not None
+    assert (channel._recorded is not None, channel._seekable is not None) == (recorded, not recorded)
 
 
 def test_what_is_kept_for_speed_never_outlives_an_edit() -> None:
@@ -151,6 +155,19 @@ def test_what_is_kept_for_speed_never_outlives_an_edit() -> None:
         assert bits(channel.evaluate(times)) == bits(fresh.evaluate(times))
         assert bits(one_by_one(channel, edges)) == bits(fresh.evaluate(edges))
         assert bits(channel.envelope(edges)) == bits(fresh.envelope(edges))
+
+
+@pytest.mark.parametrize("record_slots", [0, 1 << 18])
+def test_one_value_of_a_long_channel_follows_an_edit(monkeypatch: pytest.MonkeyPatch, record_slots: int) -> None:
+    monkeypatch.setattr(curve, "_RECORD_SLOTS", record_slots)
+    channel = Channel("x", random_run(5, 2 * curve._KEPT_SPANS))
+    run = channel.run()
+    asked = np.random.default_rng(2).uniform(0.0, run["time"][-1], 3000)
+    one_by_one(channel, asked)
+    after = run.copy()
+    after["value"] += 1.0
+    channel.splice(run, after)
+    assert bits(one_by_one(channel, asked)) == bits(channel.evaluate(asked))
 
 
 @pytest.mark.parametrize("n", [5, 10_000])
