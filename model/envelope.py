@@ -13,7 +13,7 @@ from model import evaluation, hermite
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation, periods
 from model.hermite import LARGEST, Floats
 from model.keyframe import TangentRule
-from model.rows import AT_A_TIME, D_TIME, RULE_OUT, VALUE, A, B, C, Rows, Slots
+from model.rows import AT_A_TIME, RULE_OUT, TIME, VALUE, A, B, C, Rows, Slots
 
 BLOCK = 32
 
@@ -85,27 +85,40 @@ def _span_ranges(rows: Rows, part: slice) -> Range:
         # Without a change of sign from slope to slope, or from bend to bend, the curve does not turn.
         turning = ~(c * (c + b + bend) > 0.0) | ((b < 0.0) != (bend < 0.0))
         turning &= (a != 0.0) | (b != 0.0)
-    some = np.flatnonzero(turning)
+    some = turning.nonzero()[0]
     if len(some):
-        for value in _turns(rows, some + part.start)[1]:
-            low[some] = np.fmin(low[some], value)
-            high[some] = np.fmax(high[some], value)
+        values = _turns(rows, some + part.start)[1]
+        low[some] = np.fmin(low[some], np.fmin(values[0], values[1]))
+        high[some] = np.fmax(high[some], np.fmax(values[0], values[1]))
     return low, high
 
 
-def _turns(rows: Rows, slots: Slots) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
-    """((u, u), (value, value)) where the spans of these slots turn; NaN where they do not."""
-    a, b, c, d = (rows.numbers[column][slots] for column in (A, B, C, VALUE))
+def _turns(rows: Rows, slots: Slots) -> Range:
+    """(u, value) where the spans of these slots turn, each (2, n); NaN where they do not."""
+    abc, d = rows.numbers[A : C + 1].take(slots, axis=1), rows.numbers[VALUE].take(slots)
+    places = np.empty((2, len(slots)))
     with np.errstate(all="ignore"):
-        wild = ~np.isfinite(a + b + c)
-        u0, u1 = hermite.extremum_places(a, b, c)
-        value0, value1 = hermite.value(u0, a, b, c, d), hermite.value(u1, a, b, c, d)
-        wild |= np.isinf(value0) | np.isinf(value1)
+        # Scaled to size one, so that squares neither overflow nor vanish.
+        size = np.abs(abc).max(axis=0)
+        a, b, c = abc / np.where((size > 0.0) & (size < np.inf), size, 1.0)
+        a *= 3.0
+        # a u^2 + 2 b u + c = 0, by the form without cancellation.
+        q = -(b + np.copysign(np.sqrt(b * b - a * c), b))
+        np.divide(c, q, out=places[0])
+        np.divide(q, a, out=places[1])
+        places[(places <= 0.0) | (places >= 1.0)] = np.nan
+        values = places * abc[0]
+        values += abc[1]
+        values *= places
+        values += abc[2]
+        values *= places
+        values += d
+        wild = ~np.isfinite(size) | np.isinf(values).any(axis=0)
     if wild.any():
         spans, _ = evaluation.scaled_spans(rows, rows.real(slots[wild]))
-        u0[wild], u1[wild] = hermite.extremum_places(spans.a, spans.b, spans.c)
-        value0[wild], value1[wild] = spans.value(u0[wild]), spans.value(u1[wild])
-    return (u0, u1), (value0, value1)
+        places[:, wild] = hermite.extremum_places(spans.a, spans.b, spans.c)
+        values[:, wild] = spans.value(places[0, wild]), spans.value(places[1, wild])
+    return places, values
 
 
 class Points(NamedTuple):
@@ -116,44 +129,55 @@ class Points(NamedTuple):
     u: Floats
     value: Floats
     key_value: Floats
-    turns: tuple[Floats, Floats]  # u where the span turns
-    turn_values: tuple[Floats, Floats]
+    turns: Floats  # (2, n): u where the span turns
+    turn_values: Floats
+
+    def at(self, part: slice) -> "Points":
+        """Some of them."""
+        slots, numbers = self[:2], self[2:]
+        return Points(*[column[part] for column in slots], *[column[..., part] for column in numbers])
 
 
 def _points(rows: Rows, times: Floats) -> Points:
     slots = np.maximum(rows.times.searchsorted(times, "right") - 1, 0)
-    real = rows.real(slots)
-    turns, turn_values = _turns(rows, real)
+    turns, turn_values = _turns(rows, slots)
+    _, keys, _, _, a, b, c, d_times = numbers = rows.numbers.take(slots, axis=1)
     with np.errstate(all="ignore"):
-        u = (times - rows.times[real]) / rows.numbers[D_TIME][real]
-    wild = np.flatnonzero(~np.isfinite(u))
-    if len(wild):
-        time1 = evaluation.scaled_spans(rows, real[wild])[1]
-        u[wild] = hermite.places(times[wild], rows.times[real[wild]], time1)
-    values = evaluation.inside(rows, times, None)
-    return Points(slots + 1, real, u, values, rows.numbers[VALUE][real], turns, turn_values)
+        u = (times - numbers[TIME]) / d_times
+        values = a * u
+        values += b
+        values *= u
+        values += c
+        values *= u
+        values += keys
+    if not (np.isfinite(u).all() and np.isfinite(values).all()):
+        wild = np.flatnonzero(~np.isfinite(u))
+        if len(wild):
+            real = rows.real(slots[wild])
+            u[wild] = hermite.places(times[wild], rows.times[real], evaluation.scaled_spans(rows, real)[1])
+        values = evaluation.inside(rows, times, None)
+    return Points(slots + 1, rows.real(slots), u, values, keys, turns, turn_values)
 
 
-def _ranges(rows: Rows, extremes: Extremes, points: Points, begins: slice, ends: slice) -> Range:
+def _ranges(rows: Rows, extremes: Extremes, begins: Points, ends: Points) -> Range:
     """The ranges from the points *begins* to the points *ends*, pair by pair."""
-    slot0, slot1 = points.slot[begins], points.slot[ends]
-    low = np.minimum(points.value[begins], points.value[ends])
-    high = np.maximum(points.value[begins], points.value[ends])
-    one_span = slot0 == slot1
-    for turn in (0, 1):
-        for side in (begins, ends):
-            u, value = points.turns[turn][side], points.turn_values[turn][side]
-            # A turn counts if it lies behind the beginning (of the same span) and before the end (of the same span).
-            seen = (u > points.u[begins]) if side is begins else (u < points.u[ends]) & ~one_span
-            if side is begins:
-                seen &= ~one_span | (u < points.u[ends])
-            low = np.where(seen, np.fmin(low, value), low)
-            high = np.where(seen, np.fmax(high, value), high)
-    key = points.key_value[ends]
-    low, high = np.where(one_span, low, np.minimum(low, key)), np.where(one_span, high, np.maximum(high, key))
-    if len(slot0):
-        extremes.refresh(rows, int(slot0.min()), int(slot1.max()))
-        within = extremes.between(points.next_slot[begins], np.where(one_span, points.next_slot[begins], slot1))
+    low, high = np.minimum(begins.value, ends.value), np.maximum(begins.value, ends.value)
+    one_span = begins.slot == ends.slot
+    # A turn counts if it lies behind the beginning (of the same span) and before the end (of the same span).
+    for points, behind, before in (
+        (begins, begins.u, np.where(one_span, ends.u, 1.0)),
+        (ends, 0.0, np.where(one_span, 0.0, ends.u)),
+    ):
+        seen = (points.turns > behind) & (points.turns < before)
+        if seen.any():
+            values = points.turn_values
+            low = np.minimum(low, np.where(seen, values, np.inf).min(axis=0))
+            high = np.maximum(high, np.where(seen, values, -np.inf).max(axis=0))
+    key = np.where(one_span, low, ends.key_value)
+    low, high = np.minimum(low, key), np.maximum(high, key)
+    if len(one_span) and not one_span.all():
+        extremes.refresh(rows, int(begins.slot.min()), int(ends.slot.max()))
+        within = extremes.between(begins.next_slot, np.where(one_span, begins.next_slot, ends.slot))
         low, high = np.minimum(low, within[0]), np.maximum(high, within[1])
     return low, high
 
@@ -162,7 +186,7 @@ def between(rows: Rows, extremes: Extremes, times0: Floats, times1: Floats) -> R
     """The ranges over [times0[j], times1[j]], all of them from the first to the last key."""
     n = len(times0)
     points = _points(rows, np.concatenate([times0, times1]))
-    return _ranges(rows, extremes, points, slice(0, n), slice(n, 2 * n))
+    return _ranges(rows, extremes, points.at(slice(0, n)), points.at(slice(n, 2 * n)))
 
 
 def envelope(
@@ -172,7 +196,8 @@ def envelope(
     if len(edges) < 2:
         return np.empty(0), np.empty(0)
     if edges[0] >= ends.time0 and edges[-1] <= ends.time1:
-        return _ranges(rows, extremes, _points(rows, edges), slice(0, -1), slice(1, None))
+        points = _points(rows, edges)
+        return _ranges(rows, extremes, points.at(slice(0, -1)), points.at(slice(1, None)))
     low, high = np.full(len(edges) - 1, np.inf), np.full(len(edges) - 1, -np.inf)
     left, right = edges[:-1], edges[1:]
     some = (right >= ends.time0) & (left <= ends.time1)

@@ -1,6 +1,7 @@
 """Lines: cubics as chains of points within a quarter of a pixel, and chains cut into dashes."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -41,39 +42,63 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
     if not any(lengths):
         return [Line(np.empty(0), np.empty(0), np.empty(0, np.intp)) for _ in many]
     spans = many[0] if len(many) == 1 else Spans(*map(np.concatenate, zip(*many, strict=True)))
-    scale = -window.px_per_value
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        # In pixels from here on: where a span begins and how wide it is, then its cubic.
-        table = np.stack(
-            (
-                window.x_from_time(spans.time0),
-                (spans.time1 - spans.time0) * window.px_per_second,
-                window.y_from_value(spans.d),
-                spans.c * scale,
-                spans.b * scale,
-                spans.a * scale,
-            )
-        )
-        if table[1].max() > window.width:
-            table = _seen_part(table, window)
+        table = _in_pixels(spans, window)
         n = _pieces(table, sideways)
-        # A span ends where the next one begins, but for steps: there the line goes on upright.
-        joined = np.abs(table[2:, :-1].sum(axis=0) - table[2, 1:]) < 0.01
-        borders = np.cumsum(lengths)[:-1]
-        joined[borders[(borders > 0) & (borders < len(n))] - 1] = False
         points = n + 1
-        points[:-1] -= joined
-        ends = np.cumsum(points)
+        borders = np.cumsum(lengths)[:-1] if len(many) > 1 else None
+        points[:-1] -= _joined(table, borders)
+        ends = points.cumsum()
         starts = ends - points
-        which = np.repeat(np.arange(len(n)), points)
-        u = (np.arange(ends[-1]) - starts[which]) / n[which]
+        which = np.arange(len(n)).repeat(points)
+        u = np.arange(float(ends[-1]))
+        u -= starts.take(which)
+        u /= n.take(which)
         _set_extrema(u, table, n, starts)
-        x0, wide, d, c, b, a = table[:, which]
-        x, y = x0 + u * wide, d + u * (c + u * (b + u * a))
-    near = y.min() >= -FAR and y.max() <= FAR and x.min() >= -FAR and x.max() <= FAR
-    cuts = np.concatenate(([0], ends))[borders]
-    lines = map(Line, *(np.split(column, cuts) for column in (x, y, which))) if len(many) > 1 else (Line(x, y, which),)
-    return list(lines) if near else [kept_near(*line) for line in lines]
+        x0, wide, d, c, b, y = table.take(which, axis=1)
+        for factor in (b, c, d):
+            y *= u
+            y += factor
+        x = u
+        x *= wide
+        x += x0
+    near = bool(y.min() >= -FAR and y.max() <= FAR and x.min() >= -FAR and x.max() <= FAR)
+    if borders is None:
+        lines = [Line(x, y, which)]
+    else:
+        cuts = [0, *np.concatenate(([0], ends))[borders].tolist(), len(x)]
+        lines = [Line(x[i:j], y[i:j], which[i:j]) for i, j in pairwise(cuts)]
+    return lines if near else [kept_near(*line) for line in lines]
+
+
+def _in_pixels(spans: Spans, window: Window) -> Floats:
+    """(6, n): where a span begins and how wide it is, then its cubic d, c, b, a, all in pixels."""
+    per_second, scale = window.px_per_second, -window.px_per_value
+    table = np.empty((6, len(spans.time0)))
+    x0, wide, d, c, b, a = table
+    np.subtract(spans.time0, window.t0, out=x0)
+    x0 *= per_second
+    x0 += window.left
+    np.subtract(spans.time1, spans.time0, out=wide)
+    wide *= per_second
+    np.subtract(spans.d, window.v1, out=d)
+    d *= scale
+    d += window.top
+    np.multiply(spans.c, scale, out=c)
+    np.multiply(spans.b, scale, out=b)
+    np.multiply(spans.a, scale, out=a)
+    return _seen_part(table, window) if wide.max() > window.width else table
+
+
+def _joined(table: Floats, borders: NDArray[np.intp] | None) -> NDArray[np.bool_]:
+    """Whether each span but the last ends where the next one begins: not at steps, there the line goes on upright."""
+    end: Floats = table[2:, :-1].sum(axis=0)
+    end -= table[2, 1:]
+    np.abs(end, out=end)
+    joined: NDArray[np.bool_] = end < 0.01
+    if borders is not None:
+        joined[borders[(borders > 0) & (borders <= len(joined))] - 1] = False
+    return joined
 
 
 def _seen_part(table: Floats, window: Window) -> Floats:
@@ -98,33 +123,49 @@ def _seen_part(table: Floats, window: Window) -> Floats:
 
 def _pieces(table: Floats, sideways: float) -> NDArray[np.intp]:
     """Into how many straight pieces each span is cut."""
-    _, wide, _, _, b, a = table
+    wide, b, a = table[1], table[4], table[5]
     # A chord of a parabola leaves it by an eighth of the second derivative times its length squared; two points
     # moved onto extrema may stretch the piece between them to twice its length.
-    bend = np.maximum(np.abs(b), np.abs(b + 3 * a))
-    pieces = np.sqrt(bend * (1 / TOLERANCE))
+    bend = 3 * a
+    bend += b
+    np.abs(bend, out=bend)
+    np.maximum(bend, np.abs(b), out=bend)
+    bend *= 1 / TOLERANCE
+    pieces = np.sqrt(bend, out=bend)
     # However steep it is, a cubic leaves a piece that only rises or falls sideways, by 0.39 of its width at most.
-    pieces = np.minimum(pieces, wide * (0.8 / sideways))
+    np.minimum(pieces, wide * (0.8 / sideways), out=pieces)
     if not pieces.max() <= MOST_PIECES:
-        pieces = np.nan_to_num(pieces, nan=MOST_PIECES, posinf=MOST_PIECES)
-    counts: NDArray[np.intp] = np.ceil(np.clip(pieces, 1, MOST_PIECES)).astype(np.intp)
+        pieces = np.minimum(np.nan_to_num(pieces, nan=MOST_PIECES, posinf=MOST_PIECES), MOST_PIECES)
+    np.ceil(pieces, out=pieces)
+    np.maximum(pieces, 1.0, out=pieces)
+    counts: NDArray[np.intp] = pieces.astype(np.intp)
     return counts
 
 
 def _set_extrema(u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[np.intp]) -> None:
     """Move the nearest inner point of each span onto each extremum; a span of one piece has none worth a point."""
-    bent = np.flatnonzero(n > 1)
+    (bent,) = (n > 1).nonzero()
     if not len(bent):
         return
-    a, b, c = 3 * table[5, bent], table[4, bent], table[3, bent]
-    root = np.sqrt(np.maximum(b * b - a * c, 0.0))
-    q = -(b + np.copysign(root, b))
-    for r in (q / a, c / q):
-        hit = np.flatnonzero((r > 0) & (r < 1))
-        if len(hit):
-            pieces, place = n[bent[hit]], r[hit]
-            at = np.clip(np.rint(place * pieces), 1, pieces - 1).astype(np.intp)
-            u[starts[bent[hit]] + at] = place
+    c, b, a = table[3:].take(bent, axis=1)
+    a *= 3
+    root = b * b
+    root -= a * c
+    np.sqrt(np.maximum(root, 0.0, out=root), out=root)
+    q = np.copysign(root, b, out=root)
+    q += b
+    np.negative(q, out=q)
+    places = np.empty((2, len(bent)))
+    np.divide(q, a, out=places[0])
+    np.divide(c, q, out=places[1])
+    which, some = ((places > 0) & (places < 1)).nonzero()
+    if len(some):
+        place, span = places[which, some], bent.take(some)
+        last = n.take(span)
+        at = np.rint(place * last).astype(np.intp)
+        np.minimum(np.maximum(at, 1, out=at), last - 1, out=at)
+        at += starts.take(span)
+        u[at] = place
 
 
 def kept_near(x: Floats, y: Floats, span: NDArray[np.intp]) -> Line:
@@ -147,18 +188,29 @@ def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) ->
     *bottom* is cut: a chain may be very long where nobody sees it.
     """
     x0, y0, x1, y1 = line.x[:-1], line.y[:-1], line.x[1:], line.y[1:]
-    length = np.hypot(x1 - x0, y1 - y0)
-    end = np.cumsum(length)
-    first = np.searchsorted(line.span, line.span[:-1])
-    start = end - length - np.concatenate(([0.0], end))[first]
-    seen = np.flatnonzero((length > 0) & (np.maximum(y0, y1) >= top) & (np.minimum(y0, y1) <= bottom))
-    x0, y0, start, length = x0[seen], y0[seen], start[seen], length[seen]
-    across, down = (x1[seen] - x0) / length, (y1[seen] - y0) / length
-    with np.errstate(divide="ignore", invalid="ignore"):
-        edges = np.sort(np.stack(((top - y0) / down, (bottom - y0) / down)), axis=0)
-    near = np.where(down, np.clip(edges[0], 0.0, length), 0.0)
-    far = np.where(down, np.clip(edges[1], 0.0, length), length)
-    return _cut(pattern, x0 - across * start, y0 - down * start, across, down, start + near, start + far)[0]
+    across, down = x1 - x0, y1 - y0
+    length = np.hypot(across, down)
+    end = length.cumsum()
+    ends = np.empty(len(length) + 1)
+    ends[0], ends[1:] = 0.0, end
+    start = end - length
+    start -= ends.take(line.span.searchsorted(line.span[:-1]))
+    inside = bool(line.y.min() >= top and line.y.max() <= bottom)
+    seen = length > 0
+    if not inside:
+        seen &= (np.maximum(y0, y1) >= top) & (np.minimum(y0, y1) <= bottom)
+    if not seen.all():
+        x0, y0, across, down = x0[seen], y0[seen], across[seen], down[seen]
+        start, length = start[seen], length[seen]
+    across /= length
+    down /= length
+    near, far = start, start + length
+    if not inside:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            edges = np.sort(np.stack(((top - y0) / down, (bottom - y0) / down)), axis=0)
+        near = start + np.where(down, np.clip(edges[0], 0.0, length), 0.0)
+        far = start + np.where(down, np.clip(edges[1], 0.0, length), length)
+    return _cut(pattern, x0 - across * start, y0 - down * start, across, down, near, far)[0]
 
 
 def straight_dashes(rays: Floats, dash: float, gap: float, anchor: float) -> list[Floats]:
@@ -178,20 +230,25 @@ def _cut(
     pattern: tuple[float, ...], x: Floats, y: Floats, across: Floats, down: Floats, near: Floats, far: Floats
 ) -> tuple[Floats, NDArray[np.intp]]:
     """The drawn parts between distances *near* and *far* of the rays from x, y, and which ray each is of."""
-    period = float(sum(pattern))
+    bounds = np.array((0.0, *pattern)).cumsum()
+    period = float(bounds[-1])
     turn = np.floor(near / period)
-    count = np.maximum(np.floor(far / period) - turn + 1, 0).astype(np.intp)
-    ray = np.repeat(np.arange(len(x)), count)
-    begin = (turn[ray] + np.arange(len(ray)) - np.repeat(np.cumsum(count) - count, count)) * period
-    pieces, owners = [], []
-    offset = 0.0
-    for drawn, gap in zip(pattern[::2], pattern[1::2], strict=True):
-        s0 = np.maximum(begin + offset, near[ray])
-        s1 = np.minimum(begin + offset + drawn, far[ray])
-        some = np.flatnonzero(s0 < s1)
-        of, s0, s1 = ray[some], s0[some], s1[some]
-        ends = (x[of] + across[of] * s0, y[of] + down[of] * s0, x[of] + across[of] * s1, y[of] + down[of] * s1)
-        pieces.append(np.stack(ends, axis=1))
-        owners.append(of)
-        offset += drawn + gap
-    return np.concatenate(pieces), np.concatenate(owners)
+    counts = np.floor(far / period)
+    counts -= turn
+    counts += 1
+    count = np.maximum(counts, 0, out=counts).astype(np.intp)
+    ray = np.arange(len(x)).repeat(count)
+    # The first turn of each ray, less its number among all turns, which is added again at once.
+    turn -= count.cumsum() - count
+    begin = np.arange(float(len(ray)))
+    begin += turn.take(ray)
+    begin *= period
+    s0 = np.maximum(np.add.outer(begin, bounds[:-1:2]), near.take(ray)[:, None])
+    s1 = np.minimum(np.add.outer(begin, bounds[1::2]), far.take(ray)[:, None])
+    of, part = (s0 < s1).nonzero()
+    s0, s1, of = s0[of, part], s1[of, part], ray.take(of)
+    pieces = np.empty((len(of), 4))
+    x, y, across, down = x.take(of), y.take(of), across.take(of), down.take(of)
+    for column, start, slope, s in ((0, x, across, s0), (1, y, down, s0), (2, x, across, s1), (3, y, down, s1)):
+        np.add(start, slope * s, out=pieces[:, column])
+    return pieces, of

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from model.channel import Channel, Spans
 from model.extrapolation import Extrapolation
-from model.keyframe import TangentRule
 
 type Floats = NDArray[np.float64]
 
@@ -96,28 +95,24 @@ def columns(channel: Channel, window: Window, first: int, last: int, *, inside: 
 
     *inside* leaves the extrapolation out. Column j covers the x from window.left + j to window.left + j + 1.
     """
-    edges = window.time_from_x(window.left + np.arange(first, last + 1, dtype=np.float64))
-    ends = (channel.first, channel.last)
-    if inside and ends[0] is not None and ends[1] is not None:
-        edges = np.clip(edges, ends[0].time, ends[1].time)
-    low, high = channel.envelope(edges)
+    edges = window.time_from_x(window.left + np.arange(first, last + 1.0))
+    ends = channel.ends()
+    if inside and ends is not None:
+        edges = np.minimum(np.maximum(edges, ends.time0), ends.time1)
+    found = np.array(channel.envelope(edges)[::-1])
     with np.errstate(over="ignore"):
-        return np.clip(window.y_from_value(high), -FAR, FAR), np.clip(window.y_from_value(low), -FAR, FAR)
+        top, bottom = np.minimum(np.maximum(window.y_from_value(found), -FAR), FAR)
+    return top, bottom
 
 
 def slope_outside(channel: Channel, *, after: bool) -> float | None:
     """The slope of the straight line that goes on from the first or last key; None if the keys are repeated there."""
-    mode = channel.post if after else channel.pre
-    if mode is Extrapolation.CONSTANT:
-        return 0.0
-    first, last = channel.first, channel.last
-    if first is None or last is None:
+    mode, ends = channel.post if after else channel.pre, channel.ends()
+    if mode is Extrapolation.CONSTANT or ends is None:
         return 0.0
     if mode is Extrapolation.LINEAR:
-        if after:
-            return 0.0 if last.rule_out == TangentRule.STEP else last.slope_out
-        return first.slope_in
-    return 0.0 if first == last else None
+        return ends.slope1 if after else ends.slope0
+    return 0.0 if ends.time0 == ends.time1 else None
 
 
 def spans_outside(channel: Channel, t0: float, t1: float, *, after: bool, most: int) -> Spans | None:

@@ -16,9 +16,10 @@ from model.sampling import Window
 from model.selection import Selection
 from widgets import rulers
 from widgets.backdrop import Backdrop
+from widgets.chosen import MOST
 from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
-from widgets.layers.handles import KNOB, LENGTH, MOST, shown_handles
+from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of
 from widgets.numbers import is_angle
@@ -238,10 +239,22 @@ class Canvas(QGraphicsItem):
             self.repaint_times(t0, t1)
             return
         self.repaint_times(t0, t1, MARK)
-        unit = stage.window.unit
-        for box in (*stage.arms.get(channel, ()), *(handles.box for _, handles in shown_handles(stage, channel))):
-            around = QRectF(box.topLeft() / unit, box.bottomRight() / unit).adjusted(-MARK, -MARK, MARK, MARK)
-            self.repaint(around.intersected(self._view.plot_rect))
+        boxes = [*stage.arms.get(channel, ()), *(handles.box for _, handles in shown_handles(stage, channel))]
+        if len(boxes) == 2:  # of one key: they mostly overlap
+            boxes = [boxes[0].united(boxes[1])]
+        window = stage.window
+        margin = MARK * window.unit
+        for box in boxes:
+            left, right = max(box.left() - margin, window.left), min(box.right() + margin, window.right)
+            top, bottom = max(box.top() - margin, window.top), min(box.bottom() + margin, window.bottom)
+            if left < right and top < bottom:
+                sides = (
+                    left / window.unit,
+                    top / window.unit,
+                    (right - left) / window.unit,
+                    (bottom - top) / window.unit,
+                )
+                self.repaint(QRectF(*sides))
 
     def _relabel(self, channel: Channel, t0: float, t1: float) -> None:
         stage = self._stage

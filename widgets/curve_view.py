@@ -15,11 +15,12 @@ from model.document import Document
 from model.keyframe import KeyGoneError
 from model.sampling import Window
 from widgets.canvas import Canvas
+from widgets.chosen import MOST, with_neighbours
 from widgets.fitting import active_fitted, all_fitted, clip_fitted, selection_fitted
 from widgets.graph import DrawnHandle, Frame, Spot
 from widgets.guard import guarded
 from widgets.hit_test import Hit
-from widgets.layers.handles import MOST, handles_of, shown_handles
+from widgets.layers.handles import handles_of, shown_handles
 from widgets.layers.overlays import DOT
 from widgets.mouse import MouseRouter
 from widgets.rulers import TIME_HEIGHT
@@ -186,7 +187,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
         if session.selection.count > MOST and not shown_handles(self.canvas.stage(self.viewport().devicePixelRatioF())):
             return None, None
         try:
-            handles = handles_of(channel.key(key_id), self.window_now)
+            handles = handles_of(with_neighbours(channel, key_id), channel, self.window_now)
         except KeyGoneError:
             return None, None
         return handles.into, handles.out

@@ -19,6 +19,8 @@ STROKES: Final = {
     3: ((0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)),
     4: ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (2.0, 0.0), (0.0, 2.0), (1.0, 1.0), (2.0, 1.0), (1.0, 2.0)),
 }
+# The same for all four numbers of a line: (strokes, 1, 4).
+_MOVES: Final = {width: np.tile(strokes, 2)[:, None] for width, strokes in STROKES.items()}
 
 
 def hair(color: QColor) -> QPen:
@@ -44,7 +46,7 @@ def polygon_from(line: Line) -> QPolygonF:
 
 def _first[T](rows: NDArray[Any], kind: type[T]) -> T:
     """The first row of an array that lies in memory as Qt's own objects do."""
-    return cast("T", shiboken6.wrapInstance(rows.ctypes.data, kind))
+    return cast("T", shiboken6.wrapInstance(rows.__array_interface__["data"][0], kind))
 
 
 def draw_chain(painter: QPainter, line: Line, width: int) -> None:
@@ -60,9 +62,10 @@ def draw_lines(painter: QPainter, lines: Floats, width: int = 1) -> None:
     """Lines (n, 4) of x0, y0, x1, y1."""
     if not len(lines):
         return
-    for dx, dy in STROKES[width]:
-        moved = lines + np.array((dx, dy, dx, dy)) if dx or dy else np.ascontiguousarray(lines)
-        painter.drawLines(_first(moved, QLineF), len(moved))
+    if width > 1:  # every stroke in one call
+        lines = (_MOVES[width] + lines).reshape(-1, 4)
+    lines = np.ascontiguousarray(lines)
+    painter.drawLines(_first(lines, QLineF), len(lines))
 
 
 def draw_boxes(painter: QPainter, x: NDArray[np.int32], y: NDArray[np.int32], wide: int, high: int) -> None:

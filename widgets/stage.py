@@ -13,6 +13,7 @@ from model.document import Document
 from model.keyframe import Run
 from model.sampling import Window
 from model.selection import Ids, Selection
+from widgets.chosen import Reading
 from widgets.graph import Frame
 from widgets.hit_test import Hit
 from widgets.numbers import is_angle
@@ -60,6 +61,8 @@ class Stage:
     hint: str = ""
     # Where the handles that have been painted last are, in screen pixels.
     arms: dict[Channel, list[QRectF]] = field(default_factory=dict)
+    # The few selected keys as they were read last.
+    readings: dict[Channel, Reading] = field(default_factory=dict)
     # That of the value ruler.
     unit: str = field(init=False)
     _fonts: dict[float, QFont] = field(default_factory=dict)

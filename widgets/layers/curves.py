@@ -87,19 +87,21 @@ def draw_columns(
     every: int = 1,
 ) -> None:
     """The exact lowest to highest value of each pixel column; of the extrapolation every other group of *every*."""
-    channel = trace.channel
-    first, last = channel.first, channel.last
-    if first is None or last is None:
+    ends = trace.channel.ends()
+    if ends is None:
         return
     low, high = max(floor(x0 - window.left) - 1, 0), min(ceil(x1 - window.left) + 1, ceil(window.width))
     if inside:
-        low = max(low, floor(min(max(window.x_from_time(first.time) - window.left, -1e9), 1e9)))
-        high = min(high, floor(min(max(window.x_from_time(last.time) - window.left, -1e9), 1e9)) + 1)
+        low = max(low, floor(min(max(window.x_from_time(ends.time0) - window.left, -1e9), 1e9)))
+        high = min(high, floor(min(max(window.x_from_time(ends.time1) - window.left, -1e9), 1e9)) + 1)
     if high <= low:
         return
-    top, bottom = columns(channel, window, low, high, inside=inside)
-    x = window.left + np.arange(low, high) + 0.5
-    lines = np.stack((x, np.floor(top) + 0.5, x, np.floor(bottom) + 0.5), axis=1)
+    lines = np.empty((high - low, 4))
+    lines[:, 0] = np.arange(window.left + low + 0.5, window.left + high)
+    lines[:, 2] = lines[:, 0]
+    lines[:, 1], lines[:, 3] = columns(trace.channel, window, low, high, inside=inside)
+    np.floor(lines[:, 1::2], out=lines[:, 1::2])
+    lines[:, 1::2] += 0.5
     if every > 1:
         phase = floor(window.t0 * window.px_per_second) % (2 * every)
         lines = lines[(np.arange(low, high) + phase) // every % 2 == 0]

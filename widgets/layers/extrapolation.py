@@ -30,17 +30,18 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     sides: list[tuple[Trace, bool, float, float]] = []
     rays: dict[int, Ray] = {}
     for trace in traces:
-        for after, end in ((False, trace.channel.first), (True, trace.channel.last)):
-            if end is None:
-                continue
-            edge = window.x_from_time(end.time)
+        ends = trace.channel.ends()
+        if ends is None:
+            continue
+        for after, time, value in ((False, ends.time0, ends.value0), (True, ends.time1, ends.value1)):
+            edge = window.x_from_time(time)
             low, high = (max(x0, edge), x1) if after else (x0, min(x1, edge))
             if low > high:
                 continue
             slope = slope_outside(trace.channel, after=after)
             if slope is not None:
                 seen = (max(x0 - REACH, edge), x1 + REACH) if after else (x0 - REACH, min(x1 + REACH, edge))
-                ray = _ray(window, slope, edge, end.value, seen)
+                ray = _ray(window, slope, edge, value, seen)
                 if ray is None:
                     continue
                 rays[len(sides)] = ray

@@ -9,9 +9,10 @@ from PySide6.QtGui import QPainter, QPen
 
 from model.channel import Channel
 from model.extrapolation import Extrapolation
-from model.keyframe import Keyframe, TangentRule
+from model.keyframe import TangentRule
 from model.lines import HUGE
 from model.sampling import FAR, Window
+from widgets.chosen import MOST, ChosenKey, few_chosen, with_neighbours
 from widgets.graph import Spot
 from widgets.layers.keys import SELECTED, selected_between
 from widgets.stage import Stage
@@ -19,8 +20,6 @@ from widgets.traces import Trace
 
 LENGTH: Final = 48.0
 KNOB: Final = 3.5
-# With more selected keys in view than this, handles would hide the curves.
-MOST: Final = 64
 
 
 class Handles(NamedTuple):
@@ -39,13 +38,12 @@ class Handles(NamedTuple):
         return QRectF(QPointF(min(xs), min(ys)), QPointF(max(xs), max(ys)))
 
 
-def handles_of(key: Keyframe, window: Window) -> Handles:
+def handles_of(chosen: ChosenKey, channel: Channel, window: Window) -> Handles:
     """The handles of one key: only where a slope has a say in the curve."""
+    key, before, after = chosen
     x = min(max(window.x_from_time(key.time), -FAR), FAR)
     y = min(max(window.y_from_value(key.value), -FAR), FAR)
-    before, after = key.previous, key.next
-    channel = key.channel
-    has_in = before.rule_out != TangentRule.STEP if before else channel.pre is Extrapolation.LINEAR
+    has_in = channel.pre is Extrapolation.LINEAR if before is None else before.rule_out != TangentRule.STEP
     has_out = key.rule_out != TangentRule.STEP and (after is not None or channel.post is Extrapolation.LINEAR)
     into = out = None
     if has_in:
@@ -70,15 +68,20 @@ def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace
     window = stage.window
     margin = LENGTH * window.unit
     t0, t1 = window.time_from_x(window.left - margin), window.time_from_x(window.right + margin)
-    found: list[tuple[Trace, Keyframe]] = []
+    found: list[tuple[Trace, ChosenKey]] = []
+    few = stage.selection.count <= MOST
     for trace, ids in stage.chosen:
-        if trace.channel.locked or (only is not None and trace.channel is not only):
+        channel = trace.channel
+        if channel.locked or (only is not None and channel is not only):
             continue
-        run = selected_between(trace.channel, ids, t0, t1)
-        if len(found) + len(run) > MOST:
+        if few:
+            found += [(trace, each) for each in few_chosen(stage, channel, ids) if t0 <= each.key.time <= t1]
+            continue
+        seen = selected_between(channel, ids, t0, t1)["id"].tolist()
+        if len(found) + len(seen) > MOST:
             return []
-        found.extend((trace, Keyframe(trace.channel, key_id)) for key_id in run["id"].tolist())
-    return [(trace, handles_of(key, window)) for trace, key in found]
+        found += [(trace, with_neighbours(channel, key_id)) for key_id in seen]
+    return [(trace, handles_of(each, trace.channel, window)) for trace, each in found]
 
 
 def draw_handles(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from math import floor
 from typing import Final, cast
 
 import numpy as np
@@ -13,6 +14,7 @@ from model.channel import Channel
 from model.document import Change, Splice
 from model.keyframe import Run, TangentRule
 from model.sampling import FAR
+from widgets.chosen import MOST, Key, few_chosen, keys_from
 from widgets.painting import draw_marks
 from widgets.stage import Stage, chosen
 from widgets.traces import Trace
@@ -25,6 +27,8 @@ SELECTED: Final = 4.6
 CELL: Final = 3.0
 # A channel with more keys in view than one in so many pixels shows only its selected ones.
 CROWD: Final = 3.0
+# So many keys are drawn one by one: arrays take longer to set up.
+FEW: Final = 16
 # Of more selected keys of a channel than this, those in the same small cell are one mark, which covers them all.
 MOST_SELECTED: Final = 20_000
 
@@ -89,10 +93,14 @@ def draw_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: floa
         if channel.count_between(window.t0, window.t1) > window.width / stage.px(CROWD):
             continue
         run = channel.keys_between(window.time_from_x(x0 - reach), window.time_from_x(x1 + reach), around=1)
-        if len(run):
-            run = run[told_apart(run, stage)]
-            color = stage.theme.key_locked if channel.locked else trace.color
-            _draw_run(painter, stage, run, color, stage.px(LIVE if trace.active else REST))
+        if not len(run):
+            continue
+        color = stage.theme.key_locked if channel.locked else trace.color
+        radius = stage.px(LIVE if trace.active else REST)
+        if len(run) <= FEW:
+            _draw_few(painter, stage, few_told_apart(keys_from(run.tolist()), stage), color, radius)
+        else:
+            _draw_run(painter, stage, run[told_apart(run, stage)], color, radius)
 
 
 def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
@@ -100,11 +108,17 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     window = stage.window
     reach = stage.px(SELECTED * 2)
     t0, t1 = window.time_from_x(x0 - reach), window.time_from_x(x1 + reach)
+    color, radius = stage.theme.key_selected, stage.px(SELECTED)
+    few = stage.selection.count <= MOST
     for trace, ids in stage.chosen:
+        if few:
+            keys = [each.key for each in few_chosen(stage, trace.channel, ids) if t0 <= each.key.time <= t1]
+            _draw_few(painter, stage, keys, color, radius)
+            continue
         run = selected_between(trace.channel, ids, t0, t1)
         if len(ids) > MOST_SELECTED:
             run = run[one_a_cell(run, stage)]
-        _draw_run(painter, stage, run, stage.theme.key_selected, stage.px(SELECTED))
+        _draw_run(painter, stage, run, color, radius)
 
 
 def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
@@ -148,6 +162,20 @@ def told_apart(run: Run, stage: Stage) -> NDArray[np.bool_]:
     return apart
 
 
+def few_told_apart(keys: list[Key], stage: Stage) -> list[Key]:
+    """The same of a few keys, one by one: arrays take longer to set up."""
+    window, cell = stage.window, stage.px(CELL)
+    per_second, per_value = window.px_per_second / cell, window.px_per_value / cell
+    kept: list[Key] = []
+    before: tuple[float, float] | None = None
+    for key in keys:
+        place = (key.time * per_second // 1.0, key.value * per_value // 1.0)
+        if place != before:
+            kept.append(key)
+        before = place
+    return kept
+
+
 def one_a_cell(run: Run, stage: Stage) -> NDArray[np.intp]:
     """The last key of each small cell of the picture, in the order of time; what lies above or below it is left out."""
     window, cell = stage.window, stage.px(CELL)
@@ -163,6 +191,20 @@ def one_a_cell(run: Run, stage: Stage) -> NDArray[np.intp]:
     last = np.full((int(column[-1]) + 1) * high, -1, np.intp)
     last[(column * high + row).astype(np.intp)] = inside
     return np.sort(last[last >= 0])
+
+
+def _draw_few(painter: QPainter, stage: Stage, keys: list[Key], color: QColor, radius: float) -> None:
+    if not keys:
+        return
+    window = stage.window
+    atlas, side = atlas_of(color.rgba(), stage.theme.key.rgba(), radius)
+    half = side // 2
+    low, high = window.top - 3 * radius, window.bottom + 3 * radius
+    for key in keys:
+        x, y = window.x_from_time(key.time), window.y_from_value(key.value)
+        if -FAR < x < FAR and low < y < high:
+            which = key.rule_in * len(SHAPES) + key.rule_out
+            painter.drawPixmap(floor(x) - half, floor(y) - half, atlas, which * side, 0, side, side)
 
 
 def _draw_run(painter: QPainter, stage: Stage, run: Run, color: QColor, radius: float) -> None:

@@ -65,19 +65,21 @@ def _apart(tops: list[float], high: float, low: float, most: float) -> list[floa
 
 def draw_labels(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """Each name in its channel's colour on a veil of the background."""
+    shown = [label for label in stage.labels if label.box[0] <= x1]
+    if not shown:
+        return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setFont(stage.font(SIZE))
     descent = stage.metrics(SIZE).descent()
     veil = QColor(stage.theme.background)
     veil.setAlphaF(0.72)
-    for label in stage.labels:
+    for label in shown:
         left, top, width, high = label.box
-        if left <= x1:
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(veil)
-            painter.drawRoundedRect(QRectF(left, top, width, high), stage.px(3), stage.px(3))
-            painter.setPen(label.trace.color)
-            painter.drawText(QPointF(left + stage.px(PAD), top + high - descent), label.text)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(veil)
+        painter.drawRoundedRect(QRectF(left, top, width, high), stage.px(3), stage.px(3))
+        painter.setPen(label.trace.color)
+        painter.drawText(QPointF(left + stage.px(PAD), top + high - descent), label.text)
 
 
 def hint_of(stage: Stage) -> str:

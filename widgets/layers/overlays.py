@@ -8,6 +8,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPen
 
 from model.sampling import FAR
+from widgets.chosen import with_neighbours
 from widgets.layers.curves import draw_curve
 from widgets.layers.handles import KNOB, handles_of
 from widgets.layers.keys import SELECTED
@@ -34,7 +35,7 @@ def draw_hover(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: flo
     hover = stage.overlay.hover
     if hover is None or hover.channel is None or hover.id not in hover.channel:
         return
-    handles = handles_of(hover.channel.key(hover.id), stage.window)
+    handles = handles_of(with_neighbours(hover.channel, hover.id), hover.channel, stage.window)
     spots = {"key": handles.key, "handle_in": handles.into, "handle_out": handles.out}
     spot = spots.get(hover.kind)
     if spot is None:
