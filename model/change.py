@@ -103,6 +103,19 @@ class Touched:
         if t0 <= t1:
             self.intervals[channel] = (t0, t1)
 
+    def add(self, other: "Touched") -> None:
+        """Add what *other* holds."""
+        for channel, (t0, t1) in other.intervals.items():
+            self.widen(channel, t0, t1)
+        self.settings.update(other.settings)
+        self.membership |= other.membership
+
+    def copy(self) -> "Touched":
+        """The same once more."""
+        twin = Touched()
+        twin.add(self)
+        return twin
+
 
 def validated(change: Change) -> Change:
     """*change* with its setting in canonical form; ValueError if that is no value for it.

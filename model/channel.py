@@ -12,6 +12,7 @@ from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, Run
+from model.rewinding import Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
 
 _NUMBERS = dict(NUMBER_FIELDS)
@@ -213,6 +214,21 @@ class Channel(Curve):
         old_times = (float(before["time"][0]), float(before["time"][-1])) if len(before) else (inf, -inf)
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
         return t0, t1, rank0, rank1
+
+    def hold(self) -> None:
+        """Keep from now on what splices overwrite, so that `rewind` can bring the keys of this moment back."""
+        self._rows.start = Start(self._rows)
+
+    def rewind(self) -> None:
+        """Have the keys of the moment of `hold` again, bit for bit and without working anything out; ids stay used."""
+        start = self._rows.start
+        if start is not None and start.left:
+            start.restore(self._rows)
+            self._changed()
+
+    def release(self) -> None:
+        """Leave the keys as they are and forget those of the moment of `hold`."""
+        self._rows.start = None
 
     def set_extrapolation(self, pre: Extrapolation, post: Extrapolation) -> None:
         """Choose how the curve goes on before the first and after the last key."""

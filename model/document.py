@@ -170,6 +170,8 @@ class Gesture:
         self._selection = document.session.selection
         self._active = document.session.active
         self._put: list[Change] = []
+        self._touched = Touched()  # by the present preview
+        self._held: dict[Channel, None] = {}  # the channels that a preview has spliced
         self._fresh: dict[Channel, Ids] = {}
 
     def __enter__(self) -> "Gesture":
@@ -219,16 +221,18 @@ class Gesture:
         *selection* is what is selected then (default: what was at the start), without keys that are gone.
         """
         document = self._require_open()
+        before, told_before = self._put, self._touched
         touched = Touched()
-        before, self._put = self._put, []
-        self._rewind(before, touched)
+        self._rewind()
         try:
             self._put = self._stored(compute(document.clip), touched)
             chosen = selection(self._put) if callable(selection) else selection
         except BaseException:
-            self._rewind(self._put, touched)
-            self._put = document._put_all(before, touched)
+            self._rewind()
+            self._put, self._touched = document._put_all(before, Touched()), told_before
             raise
+        self._touched = touched.copy()
+        touched.add(told_before)
         if label is not None:
             self.label = label
         document._tell(touched, self._without_gone(self._selection if chosen is None else chosen), self._active_now())
@@ -241,6 +245,7 @@ class Gesture:
         """
         document = self._require_open()
         changes = differing(self._put)
+        self._release()
         session = document.session
         document.gesture = None
         if changes:
@@ -259,11 +264,10 @@ class Gesture:
         document = self._document
         if not self.open:
             return
-        touched = Touched()
-        self._rewind(self._put, touched)
-        self._put = []
+        self._rewind()
+        self._release()
         document.gesture = None
-        document._tell(touched, self._selection, self._active)
+        document._tell(self._touched, self._selection, self._active)
         document.gesture_changed.emit()
 
     def _require_open(self) -> Document:
@@ -271,13 +275,29 @@ class Gesture:
             raise RuntimeError(f"{self.label!r} is over")
         return self._document
 
-    def _rewind(self, changes: Sequence[Change], touched: Touched) -> None:
-        """Take back what a preview put in."""
-        self._document._put_all([change.inverse() for change in reversed(changes)], touched)
+    def _rewind(self) -> None:
+        """Take back what the present preview put in."""
+        for channel in self._held:
+            channel.rewind()
+        settings = [change.inverse() for change in reversed(self._put) if not isinstance(change, Splice)]
+        self._document._put_all(settings, Touched())
+        self._put = []
+
+    def _hold(self, changes: Iterable[Change]) -> None:
+        """Let the channels that *changes* splice keep what they overwrite."""
+        for change in changes:
+            if isinstance(change, Splice) and change.channel not in self._held:
+                self._held[change.channel] = None
+                change.channel.hold()
+
+    def _release(self) -> None:
+        for channel in self._held:
+            channel.release()
 
     def _stored(self, changes: Iterable[Change], touched: Touched) -> list[Change]:
         """Put *changes* in; a new key has the same id in every preview, so that a drag can go on holding it."""
         changes = list(changes)
+        self._hold(changes)
         asking = [i for i, change in enumerate(changes) if isinstance(change, Splice) and _asks_for_ids(change.after)]
         used: dict[Channel, int] = {}
         for i in asking:

@@ -11,8 +11,6 @@ of rules: whoever stores keys here works out slopes and coefficients afterwards 
 """
 
 from bisect import bisect_right
-from collections.abc import Iterator
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +18,7 @@ from numpy.typing import NDArray
 
 from model.hermite import Floats
 from model.keyframe import KEY_DTYPE, KeyGoneError, Run
+from model.rewinding import Grids, Start
 
 type Slots = NDArray[np.int64]
 
@@ -34,6 +33,8 @@ FILLED = 384
 CROWDED = 0.85
 # Rows handled at a time, so that their numbers stay in the processor's cache from one column to the next.
 AT_A_TIME = 16
+# Where all keys of at least so many rows are replaced in a gesture, others are written rather than these copied.
+MANY_ROWS = 64
 
 
 class Block(NamedTuple):
@@ -53,6 +54,7 @@ class Rows:
     def __init__(self) -> None:
         self.row_of = np.full(16, -1, np.int32)  # by id; -1: no such key
         self.minus_zero = False  # whether some key may have had the value -0.0
+        self.start: Start | None = None  # in a gesture: what is overwritten is kept there first
         self._make(0)
 
     def _make(self, n: int) -> None:
@@ -61,18 +63,29 @@ class Rows:
             width, rows = min(WIDEST, max(8, 1 << (n + n // 3).bit_length())), 1
         else:
             width, rows = WIDEST, -(-n // FILLED)
-        self.width, self.rows, self.size = width, rows, n
-        self.number_grid = np.zeros((8, rows, width)) if n == 0 else np.empty((8, rows, width))
-        self.mark_grid = np.zeros((3, rows, width), np.uint8)
-        self.id_grid = np.zeros((rows, width), np.int32)
+        self.size = n
+        numbers = np.zeros((8, rows, width)) if n == 0 else np.empty((8, rows, width))
+        marks, ids = np.zeros((3, rows, width), np.uint8), np.zeros((rows, width), np.int32)
+        self.take_over((numbers, marks, ids), np.zeros(rows + 1, np.int64), [0.0] * rows)
+
+    @property
+    def grids(self) -> Grids:
+        """Numbers, marks and ids by row and place."""
+        return self.number_grid, self.mark_grid, self.id_grid
+
+    def take_over(self, grids: Grids, first: NDArray[np.int64], starts: list[float]) -> None:
+        """Hold the keys of these grids from now on."""
+        self.number_grid, self.mark_grid, self.id_grid = grids
+        self.rows: int = self.id_grid.shape[0]
+        self.width: int = self.id_grid.shape[1]
         self.numbers = self.number_grid.reshape(8, -1)
         self.bits = self.numbers.view(np.int64)
         self.marks = self.mark_grid.reshape(3, -1)
         self.ids = self.id_grid.reshape(-1)
         self.times = self.numbers[TIME]
-        self.first = np.zeros(rows + 1, np.int64)  # rank of each row's first key, and at the end the number of keys
-        self.starts = [0.0] * rows  # time of each row's first key
-        self.dirty = set(range(rows))  # rows whose coefficients were written since somebody cleared this set
+        self.first = first  # rank of each row's first key, and at the end the number of keys
+        self.starts = starts  # time of each row's first key
+        self.dirty = set(range(self.rows))  # rows whose coefficients were written since somebody cleared this set
 
     # --- places
 
@@ -140,28 +153,27 @@ class Rows:
         times = self.number_grid[TIME, row, : self.held(row)]
         return int(self.first[row]) + int(times.searchsorted(time, "right" if after else "left"))
 
-    def blocks(self, rank0: int, rank1: int) -> Iterator[Block]:
+    def blocks(self, rank0: int, rank1: int) -> list[Block]:
         """The keys of these ranks as blocks of at most AT_A_TIME rows."""
         if rank0 >= rank1:
-            return
-        row0, place0 = self.place(rank0)
-        held = self.held(row0)
-        if place0 + rank1 - rank0 <= held:
-            yield Block(rank0, row0, 1, place0, rank1 - rank0, held)
-            return
-        row1, place1 = self.place(rank1 - 1)
-        if place0:
-            yield Block(rank0, row0, 1, place0, held - place0, held)
-            row0 += 1
-        held = self.held(row1)
-        stop = row1 + 1 if place1 + 1 == held else row1
-        counts = np.diff(self.first[row0 : stop + 1])
-        cuts = np.union1d(np.flatnonzero(np.diff(counts)) + 1, np.arange(0, len(counts), AT_A_TIME)).tolist()
-        for begin, end in pairwise([*cuts, len(counts)]):
-            count = int(counts[begin])
-            yield Block(int(self.first[row0 + begin]), row0 + begin, end - begin, 0, count, count)
-        if stop == row1:
-            yield Block(int(self.first[row1]), row1, 1, 0, place1 + 1, held)
+            return []
+        row, place = self.place(rank0)
+        held = self.held(row)
+        if place + rank1 - rank0 <= held:
+            return [Block(rank0, row, 1, place, rank1 - rank0, held)]
+        blocks: list[Block] = []
+        rank, held_before, first_row = rank0, 0, row
+        for end in self.first[row + 1 : self.place(rank1 - 1)[0] + 2].tolist():
+            held = end - rank + place
+            width = min(end, rank1) - rank
+            if width != held or held != held_before or row - first_row == AT_A_TIME:
+                blocks.append(Block(rank, row, 1, place, width, held))
+                held_before, first_row = (held, row) if width == held else (0, row)
+            else:
+                last = blocks[-1]
+                blocks[-1] = Block(last.rank, first_row, row - first_row + 1, 0, held, held)
+            rank, place, row = end, 0, row + 1
+        return blocks
 
     # --- reading and storing
 
@@ -205,6 +217,7 @@ class Rows:
     def _store(self, rank0: int, run: Run, *, ids_too: bool = True) -> None:
         """Write *run* over the keys from rank0 on; coefficients are left as they are."""
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + len(run)):
+            self._keep(row, row + rows, keys_move=ids_too)
             part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
             at = np.s_[row : row + rows, place : place + count]
             for field, column in NUMBER_FIELDS:
@@ -217,6 +230,11 @@ class Rows:
             self._repeat_last(row, row + rows, place + count, held)
             if place == 0:
                 self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
+
+    def _keep(self, row0: int, row1: int, *, keys_move: bool) -> None:
+        """The rows from row0 up to before row1 are about to be written: their numbers, or also which keys they hold."""
+        if self.start is not None:
+            self.start.keep(self, row0, row1, keys_move=keys_move)
 
     def _repeat_last(self, row0: int, row1: int, written: int, held: int) -> None:
         """Fill the spare slots of rows that hold *held* keys, the first *written* of which may be new."""
@@ -244,6 +262,7 @@ class Rows:
         """Write columns column0 and following of the keys from rank0 on; numbers: (columns, n)."""
         stop, n = column0 + len(numbers), numbers.shape[1]
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + n):
+            self._keep(row, row + rows, keys_move=False)
             grid = self.number_grid[column0:stop, row : row + rows]
             part = numbers[:, rank - rank0 : rank - rank0 + rows * count]
             grid[:, :, place : place + count] = part.reshape(len(numbers), rows, count)
@@ -261,6 +280,8 @@ class Rows:
         """
         gone, come = rank1 - rank0, len(run)
         if gone == come:
+            if self.start is not None and come == self.size and self.rows >= MANY_ROWS:
+                self._write_elsewhere(self.start, keys_move=not same_ids)
             if not same_ids:
                 self._forget(rank0, rank1)
             self._store(rank0, run, ids_too=not same_ids)
@@ -275,8 +296,15 @@ class Rows:
             return rank0, rank0 + come
         return self._share_out(rank0, rank1, run)
 
+    def _write_elsewhere(self, start: Start, *, keys_move: bool) -> None:
+        """Set all rows aside and take others of the same shape, all of whose numbers and marks are to be written."""
+        start.set_aside(self, keys_move=keys_move)
+        numbers, marks = start.spare_grids(self)
+        self.take_over((numbers, marks, self.id_grid.copy()), self.first.copy(), self.starts.copy())
+
     def _shift(self, row: int, place: int, gone: int, come: int) -> None:
         """Move what follows in the row, so that *come* keys have room where *gone* were."""
+        self._keep(row, row + 1, keys_move=True)
         held = self.held(row)
         new_held = held + come - gone
         tail_stays = place + come < new_held
@@ -319,6 +347,8 @@ class Rows:
             shared[head : head + len(run)] = run
         self._forget(rank0, rank1)
         if everything:
+            if self.start is not None:
+                self.start.set_aside(self, keys_move=True)
             self._make(new_size)
             row1 = self.rows
         self.size = new_size

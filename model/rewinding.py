@@ -1,0 +1,131 @@
+"""Start: the rows of a channel as they were before a gesture, so that each preview begins there without a splice."""
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.hermite import Floats
+from model.keyframe import Run
+
+if TYPE_CHECKING:
+    from model.rows import Rows
+
+type Grids = tuple[Floats, NDArray[np.uint8], NDArray[np.int32]]
+
+
+class Part(NamedTuple):
+    """Copies of neighbouring rows, from row0 up to before row1."""
+
+    row0: int
+    row1: int
+    numbers: Floats
+    marks: NDArray[np.uint8]
+    ids: NDArray[np.int32]
+
+
+class Whole(NamedTuple):
+    """All rows, set aside as they are: others have taken their place."""
+
+    grids: Grids
+    first: NDArray[np.int64]
+    starts: list[float]
+
+
+class Start:
+    """What has been overwritten since it was made, row by row as it was then, coefficients included.
+
+    Rows say what they are about to write; nothing is worked out anew on the way back.
+    """
+
+    def __init__(self, rows: "Rows") -> None:
+        self.runs: dict[int, tuple[NDArray[np.int64], Run]] = {}  # runs of the start by the ids asked for
+        self._first, self._size = rows.first.copy(), rows.size
+        self._part_of = [-1] * rows.rows  # by row: which part holds it; -1: none
+        self._parts: list[Part] = []
+        self._written: set[int] = set()  # the parts whose rows differ from the start now
+        self._whole: Whole | None = None
+        self._spare: Grids | None = None
+        self._keys_moved = False
+
+    @property
+    def left(self) -> bool:
+        """Whether the rows may differ from the start now."""
+        return bool(self._written) or self._whole is not None
+
+    def keep(self, rows: "Rows", row0: int, row1: int, *, keys_move: bool) -> None:
+        """Make sure of the rows from row0 up to before row1; *keys_move*: not only their numbers will change."""
+        self._keys_moved |= keys_move
+        if self._whole is not None:
+            return
+        if row1 == row0 + 1:
+            part = self._part_of[row0]
+            self._written.add(part if part >= 0 else self._copied(rows, row0, row1))
+            return
+        at = row0
+        while at < row1:
+            part = self._part_of[at]
+            if part >= 0:
+                self._written.add(part)
+                at = self._parts[part].row1
+                continue
+            end = at + 1
+            while end < row1 and self._part_of[end] < 0:
+                end += 1
+            self._written.add(self._copied(rows, at, end))
+            at = end
+
+    def _copied(self, rows: "Rows", row0: int, row1: int) -> int:
+        part = len(self._parts)
+        numbers, marks = rows.number_grid[:, row0:row1].copy(), rows.mark_grid[:, row0:row1].copy()
+        self._parts.append(Part(row0, row1, numbers, marks, rows.id_grid[row0:row1].copy()))
+        self._part_of[row0:row1] = [part] * (row1 - row0)
+        return part
+
+    def set_aside(self, rows: "Rows", *, keys_move: bool) -> None:
+        """Other rows are about to take the place of these."""
+        self._keys_moved |= keys_move
+        if self._whole is None:
+            self._whole = Whole(rows.grids, rows.first, rows.starts)
+
+    def spare_grids(self, rows: "Rows") -> tuple[Floats, NDArray[np.uint8]]:
+        """Grids of the shape of those of *rows* to be filled: those that the last preview left behind."""
+        spare, self._spare = self._spare, None
+        if spare is not None and spare[0].shape == rows.number_grid.shape:
+            return spare[0], spare[1]
+        return np.empty_like(rows.number_grid), np.empty_like(rows.mark_grid)
+
+    def restore(self, rows: "Rows") -> None:
+        """Make *rows* what they were."""
+        whole, parts = self._whole, [self._parts[part] for part in self._written]
+        if self._keys_moved:
+            self._forget_present(rows, parts)
+        if whole is not None:
+            self._spare = rows.grids
+            rows.take_over(whole.grids, whole.first, whole.starts)
+        for part in parts:
+            here = slice(part.row0, part.row1)
+            rows.number_grid[:, here], rows.mark_grid[:, here] = part.numbers, part.marks
+            rows.starts[here] = part.numbers[0, :, 0].tolist()
+            rows.dirty.update(range(part.row0, part.row1))
+        if self._keys_moved:
+            self._remember_start(rows, parts)
+        self._written.clear()
+        self._whole = None
+        self._keys_moved = False
+
+    def _forget_present(self, rows: "Rows", parts: list[Part]) -> None:
+        if self._whole is not None:
+            rows.row_of[rows.id_grid] = -1
+            return
+        for part in parts:
+            rows.row_of[rows.id_grid[part.row0 : part.row1]] = -1
+
+    def _remember_start(self, rows: "Rows", parts: list[Part]) -> None:
+        rows.first[:], rows.size = self._first, self._size
+        for part in parts:
+            rows.id_grid[part.row0 : part.row1] = part.ids
+        stretches = [(part.row0, part.row1) for part in parts] if self._whole is None else [(0, rows.rows)]
+        for row0, row1 in stretches:
+            rows.row_of[rows.id_grid[row0:row1]] = np.arange(row0, row1, dtype=np.int32)[:, None]
+        rows.row_of[0] = -1  # rows without keys hold id 0
