@@ -7,9 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from model.clip import Clip
-from model.formats import read_clip, sniff
+from model.formats import Loss, clip_from, losses, losses_of, read_file, sniff
+from model.formats.content import Content
 from model.formats.error import MAX_FILE_BYTES
+from model.progress import Report, part_of, unheard
+from model.saving import SaveResult, save_content, sweep_temp
 
+_PIECE = 1 << 20
 NO_DIGEST = 0  # of a file that changed while it was read: unlike any other
 
 
@@ -27,25 +31,71 @@ class Fingerprint(NamedTuple):
 
 
 class Opened(NamedTuple):
-    """A clip, where it came from, and what the file was at that moment."""
+    """A clip, where it came from, what the file was at that moment, and what it cannot hold of the clip anyway."""
 
     clip: Clip
     path: str
     format_name: str
     fingerprint: Fingerprint | None
+    losses: list[Loss]
 
 
-def open_clip(path: str, skeleton: str | None = None) -> Opened:
-    """Read the clip at *path*. Raises FormatError and nothing else."""
+class Saved(NamedTuple):
+    """A clip is in its file: how surely, without what, and what the file is now."""
+
+    result: SaveResult
+    losses: list[Loss]
+    fingerprint: Fingerprint | None
+
+
+class Doubt(NamedTuple):
+    """A clip was not written since somebody must be asked first: what would be lost of it, or of another's work."""
+
+    losses: list[Loss]
+    overwrites_another: bool
+
+
+class Leave(NamedTuple):
+    """What a save may do without asking: lose just this, and replace this version of the file, or whatever is there."""
+
+    losses: list[Loss]
+    version: Fingerprint | None
+    whatever: bool
+
+
+def open_clip(path: str, skeleton: str | None = None, report: Report = unheard) -> Opened:
+    """Read the clip at *path*. Raises FormatError, what *report* raises, and nothing else."""
     path = os.path.abspath(path)
     before = _status(path)
-    clip = read_clip(path, skeleton=skeleton)
-    after = fingerprint_of(path)
-    if after is not None and before != after[:4]:
-        after = after._replace(size=-1, digest=NO_DIGEST)  # written while it was read: it counts as changed
-    with open(path, "rb") as file:
-        format_name = sniff(file.read(1 << 16))
-    return Opened(clip, path, format_name, after)
+    data = read_file(path)
+    after = _status(path)
+    clip = clip_from(data, path, skeleton=skeleton, report=part_of(report, 0.0, 0.85))
+    fingerprint = None
+    if after is not None and before == after:
+        fingerprint = Fingerprint(*after, digest_of(data))
+    elif after is not None:  # written while it was read: it counts as changed
+        fingerprint = Fingerprint(*after[:3], -1, NO_DIGEST)
+    format_name = sniff(data)
+    lost = losses(clip, format_name, path)
+    for number, channel in enumerate(clip.channels):
+        report(0.9 + 0.1 * number / len(clip.channels))
+        channel.extrema()  # kept by the channel, for the first picture
+    sweep_temp(path)
+    return Opened(clip, path, format_name, fingerprint, lost)
+
+
+def save_clip(content: Content, path: str, format_name: str, leave: Leave, report: Report = unheard) -> Saved | Doubt:
+    """Write *content* to *path*, unless that does more than *leave* allows.
+
+    Raises SaveError, FormatError and what *report* raises; then, and in doubt, the file is as it was.
+    """
+    lost = losses_of(content, format_name, path)
+    if lost and lost != leave.losses:
+        return Doubt(lost, overwrites_another=False)
+    if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
+        return Doubt(lost, overwrites_another=True)
+    result = save_content(content, path, format_name, part_of(report, 0.05, 0.95))
+    return Saved(result, lost, fingerprint_of(path))
 
 
 def fingerprint_of(path: str) -> Fingerprint | None:
@@ -54,9 +104,14 @@ def fingerprint_of(path: str) -> Fingerprint | None:
     if status is None:
         return None
     try:
-        return Fingerprint(*status, hash(read_regular(path)))
+        return Fingerprint(*status, digest_of(read_regular(path)))
     except OSError:
         return None
+
+
+def digest_of(data: bytes) -> int:
+    """A number that tells these bytes from others; piece by piece, so that no other thread waits for long."""
+    return hash(tuple([hash(data[first : first + _PIECE]) for first in range(0, len(data), _PIECE)]))
 
 
 def read_regular(path: str) -> bytes:
@@ -72,13 +127,16 @@ def read_regular(path: str) -> bytes:
 
 def changed_since(path: str, known: Fingerprint | None) -> bool:
     """Whether the file at *path* holds something else than when *known* was taken; a touched file does not count."""
+    return version_since(path, known)[0]
+
+
+def version_since(path: str, known: Fingerprint | None) -> tuple[bool, Fingerprint | None]:
+    """The same, and what the file is now if that had to be found out."""
     status = _status(path)
-    if known is None or status is None:
-        return status is not None
-    if status == known[:4]:
-        return False
+    if status is None or (known is not None and status == known[:4]):
+        return False, known
     now = fingerprint_of(path)
-    return now is None or now.digest != known.digest
+    return known is None or now is None or now.digest != known.digest, now
 
 
 def display_name(path: str) -> str:

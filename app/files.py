@@ -4,24 +4,40 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.clip_file import Fingerprint, Opened, changed_since, display_name, fingerprint_of, open_clip, read_regular
+from app.clip_file import (
+    Doubt,
+    Fingerprint,
+    Leave,
+    Opened,
+    Saved,
+    display_name,
+    open_clip,
+    read_regular,
+    save_clip,
+    version_since,
+)
 from app.file_menus import SAMPLES_FOLDER
 from app.questions import Answer, home_folder
+from app.undo import Mark
 from model.channel import Channel
 from model.clip import Clip
 from model.document import Setting
-from model.formats import FORMATS, FormatError, Loss, format_of_path, losses
+from model.formats import FORMATS, FormatError, Loss, format_of_path
+from model.formats.content import Content
 from model.formats.error import TextError
 from model.formats.skel import channel_names, channel_units, joint_names
-from model.saving import Durability, SaveError, save_clip, sweep_temp
+from model.progress import CancelledError, Report
+from model.saving import Durability, SaveError
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
 
 UNTITLED = "Untitled"
 NATIVE = "hermite"
+# Up to so much is read and written at once: that takes less than 50 ms.
+FEW_BYTES, FEW_KEYS, FEW_CHANNELS = 1 << 17, 10_000, 500
 
 
 class Files(QObject):
@@ -39,6 +55,8 @@ class Files(QObject):
         self._opened_losses: list[Loss] = []  # what the file lacked already when it was opened
         self._accepted_losses: list[Loss] = []
         self._asked_about: Fingerprint | None = None
+        self._closing = False  # the window, as soon as the job under way is over
+        window.jobs.changed.connect(self._job_changed)
 
     @property
     def modified(self) -> bool:
@@ -49,10 +67,10 @@ class Files(QObject):
 
     def new(self) -> bool:
         """An empty clip with one channel to draw in."""
-        if not self.may_lose_changes():
+        if self._busy() or not self.may_lose_changes():
             return False
         self._window.show_clip(Clip([Channel("value")], start=0.0, end=2.0))
-        self._take_place("", UNTITLED, NATIVE, None)
+        self._take_place("", UNTITLED, NATIVE, None, [])
         return True
 
     def ask_and_open(self) -> bool:
@@ -66,14 +84,34 @@ class Files(QObject):
         """Open the clip at *path*; a .skel names the channels of the clip that is open. False: nothing has changed."""
         if path.lower().endswith(".skel"):
             return self.name_channels(path)
-        if not self.may_lose_changes():
+        if self._busy() or not self.may_lose_changes():
             return False
+        return self._read(path, skeleton, f"{display_name(path)} cannot be opened")
+
+    def _read(self, path: str, skeleton: str | None, failure: str, *, keep_playhead: bool = False) -> bool:
+        """Read the clip at *path* and show it; False, after a message, if that was not to be."""
+        history, session = self._window.undo_stack, self._window.session
+        before = history.mark()
         try:
-            opened = open_clip(path, skeleton)
+            opened = self._window.jobs.run(
+                f"Opening {display_name(path)}",
+                lambda report: open_clip(path, skeleton, report),
+                at_once=_small_file(path),
+            )
         except FormatError as error:
-            self._window.questions.tell_error(f"{display_name(path)} cannot be opened", error.advice)
+            self._window.questions.tell_error(failure, error.advice)
             return False
+        except CancelledError:
+            self._window.say(f"{display_name(path)} was not opened")
+            return False
+        self._window.finish_entry()
+        self._window.cancel_gesture()
+        if not history.mark().same(before) and not self.may_lose_changes():
+            return False  # what the user did to the old clip meanwhile is worth more
+        playhead = session.playhead
         self.show_opened(opened)
+        if keep_playhead:
+            session.playhead = playhead
         return True
 
     def open_recent(self, path: str) -> bool:
@@ -92,15 +130,15 @@ class Files(QObject):
     def adopt(self, opened: Opened) -> None:
         """Take the file of *opened*, whose clip is in the window. A sample has no file: saving it asks where to."""
         if Path(opened.path).parent == SAMPLES_FOLDER:
-            self._take_place("", Path(opened.path).stem, NATIVE, None)
+            self._take_place("", Path(opened.path).stem, NATIVE, None, [])
             return
-        self._take_place(opened.path, display_name(opened.path), opened.format_name, opened.fingerprint)
+        name = display_name(opened.path)
+        self._take_place(opened.path, name, opened.format_name, opened.fingerprint, opened.losses)
         self._remember(opened.path)
-        sweep_temp(opened.path)
 
     def revert(self) -> bool:
         """Read the file again and forget what was done since."""
-        return self._window.questions.revert(self.name) and self._read_again()
+        return not self._busy() and self._window.questions.revert(self.name) and self._read_again()
 
     def name_channels(self, skeleton: str) -> bool:
         """Name the channels by the joints of a .skel, as one step that can be undone."""
@@ -139,6 +177,8 @@ class Files(QObject):
 
     def save(self) -> bool:
         """Write the clip to its file; asks for one if it has none. True when it is there."""
+        if self._busy():
+            return False
         self._window.finish_entry()
         self._window.cancel_gesture()
         if not self.path:
@@ -147,6 +187,8 @@ class Files(QObject):
 
     def save_as(self, format_name: str | None = None) -> bool:
         """Write the clip to a file that the user chooses; the extension decides the format, else the kind chosen."""
+        if self._busy():
+            return False
         self._window.finish_entry()
         self._window.cancel_gesture()
         format_name = format_name or self.format_name
@@ -158,40 +200,60 @@ class Files(QObject):
         return self._save_to(os.path.abspath(path), format_of_path(path) or chosen)
 
     def _save_to(self, path: str, format_name: str) -> bool:
-        lost = losses(self._window.document.clip, format_name, path)
-        if lost and lost != self._accepted_losses:
-            answer = self._window.questions.lossy_save(display_name(path), lost)
-            if answer is Answer.NATIVE:
-                return self.save_as(NATIVE)
-            if answer is not Answer.ANYWAY:
+        name, state = display_name(path), self._window.undo_stack.mark()
+        content = Content.of(self._window.document.clip)
+        leave = Leave(self._accepted_losses, self._fingerprint, whatever=path != self.path)
+        while True:
+            try:
+                saved = self._write(content, path, format_name, leave)
+            except CancelledError:
+                self._window.say(f"{name} was not saved")
                 return False
-        taken = path == self.path and os.path.exists(path) and changed_since(path, self._fingerprint)
-        if taken and not self._window.questions.overwrite_changed(display_name(path)):
-            return False
-        try:
-            result = save_clip(self._window.document.clip, path, format_name)
-        except (SaveError, FormatError) as error:
-            self._window.questions.tell_error(f"{display_name(path)} was not saved", str(error))
-            return False
+            except (SaveError, FormatError) as error:
+                self._window.questions.tell_error(f"{name} was not saved", str(error))
+                return False
+            if isinstance(saved, Saved):
+                return self._saved(path, format_name, state, saved)
+            if saved.overwrites_another:
+                if not self._window.questions.overwrite_changed(name):
+                    return False
+                leave = leave._replace(whatever=True)
+            else:
+                answer = self._window.questions.lossy_save(name, saved.losses)
+                if answer is Answer.NATIVE:
+                    return self.save_as(NATIVE)
+                if answer is not Answer.ANYWAY:
+                    return False
+                leave = leave._replace(losses=saved.losses)
+
+    def _write(self, content: Content, path: str, format_name: str, leave: Leave) -> Saved | Doubt:
+        def work(report: Report) -> Saved | Doubt:
+            return save_clip(content, path, format_name, leave, report)
+
+        return self._window.jobs.run(f"Saving {display_name(path)}", work, at_once=_small(content), vital=True)
+
+    def _saved(self, path: str, format_name: str, state: Mark, saved: Saved) -> bool:
+        """Tell that the clip is in its file as it was in *state*; whether the disk has confirmed it."""
         if path != self.path:
             self._opened_losses = []
         self.path, self.name, self.format_name = path, display_name(path), format_name
-        self._fingerprint = self._asked_about = fingerprint_of(path)
-        self._accepted_losses = lost
+        self._fingerprint = self._asked_about = saved.fingerprint
+        self._accepted_losses = saved.losses
         self._remember(path)
         whole = not self._lacking()
-        if whole and result.durability is Durability.CONFIRMED:
-            self._window.undo_stack.setClean()
+        confirmed = saved.result.durability is Durability.CONFIRMED
+        if whole and confirmed:
+            self._window.undo_stack.set_saved(state)
         else:  # the file is another than what is shown, or the disk may still lose it: the clip counts as unsaved
             self._window.undo_stack.resetClean()
         self.changed.emit()
-        without = ", ".join(dict.fromkeys(loss.what for loss in lost))
+        without = ", ".join(dict.fromkeys(loss.what for loss in saved.losses))
         self._window.say(
             f"Saved to {self.name}" + ("" if whole else f" without {without}; the clip still differs from the file")
         )
-        if result.notes:
-            self._window.questions.tell_warning(f"{self.name} was saved, but", "\n".join(result.notes))
-        return result.durability is Durability.CONFIRMED
+        if saved.result.notes:
+            self._window.questions.tell_warning(f"{self.name} was saved, but", "\n".join(saved.result.notes))
+        return confirmed
 
     def may_lose_changes(self) -> bool:
         """Whether the clip may go: it is as saved, or the user saves it or gives it up."""
@@ -200,9 +262,36 @@ class Files(QObject):
         if not self.modified:
             return True
         answer = self._window.questions.save_changes(self.name, self._lacking())
-        if answer is Answer.NATIVE:
-            return self.save_as(NATIVE)
-        return self.save() if answer is Answer.SAVE else answer is Answer.DISCARD
+        if answer not in (Answer.NATIVE, Answer.SAVE):
+            return answer is Answer.DISCARD
+        before = self._window.undo_stack.mark()
+        if not (self.save_as(NATIVE) if answer is Answer.NATIVE else self.save()):
+            return False
+        # What the user did while it was being saved is not in the file.
+        return self._window.undo_stack.mark().same(before) or self.may_lose_changes()
+
+    def may_close(self) -> bool:
+        """Whether the window may close now. What is being opened is given up, what is being saved is waited for."""
+        job = self._window.jobs.job
+        if job is None:
+            return self.may_lose_changes()
+        self._closing = True
+        if not job.vital:
+            job.cancel()
+        return False
+
+    def _job_changed(self) -> None:
+        self._window.refresh_actions()
+        if self._closing and self._window.jobs.job is None:
+            self._closing = False
+            QTimer.singleShot(0, self._window, self._window.close)
+
+    def _busy(self) -> bool:
+        """Whether a file is being read or written, so that no other can be now; it is said then."""
+        job = self._window.jobs.job
+        if job is not None:
+            self._window.say(f"{job.text} is still going on; Esc cancels it")
+        return job is not None
 
     def _lacking(self) -> list[Loss]:
         """What the file has lost of the clip since it was opened, with the user's leave."""
@@ -212,12 +301,19 @@ class Files(QObject):
 
     def look_at_disk(self) -> None:
         """Offer to read the file again if another program has changed it; asks once for each version."""
-        if not self.path or not changed_since(self.path, self._fingerprint):
-            if self.path and self._fingerprint is not None and not os.path.exists(self.path):
-                self._say_gone()
+        if not self.path or self._window.jobs.job is not None:
             return
-        now = fingerprint_of(self.path)
-        if now == self._asked_about:
+        if self._fingerprint is not None and not os.path.exists(self.path):
+            self._say_gone()
+            return
+        path, known = self.path, self._fingerprint
+        try:
+            changed, now = self._window.jobs.run(
+                f"Looking at {self.name}", lambda _report: version_since(path, known), at_once=_small_file(path)
+            )
+        except CancelledError:
+            return
+        if not changed or now == self._asked_about:
             return
         self._asked_about = now
         reload = self._window.questions.reload_changed(self.name, modified=self.modified)
@@ -232,24 +328,17 @@ class Files(QObject):
         self._window.say(f"{self.name} is gone from the disk; saving writes it again")
 
     def _read_again(self) -> bool:
-        try:
-            opened = open_clip(self.path)
-        except FormatError as error:
-            self._window.questions.tell_error(f"{self.name} cannot be read again", error.advice)
-            return False
-        playhead = self._window.session.playhead
-        self.show_opened(opened)
-        self._window.session.playhead = playhead
-        return True
+        return self._read(self.path, None, f"{self.name} cannot be read again", keep_playhead=True)
 
     # --- common
 
-    def _take_place(self, path: str, name: str, format_name: str, fingerprint: Fingerprint | None) -> None:
+    def _take_place(
+        self, path: str, name: str, format_name: str, fingerprint: Fingerprint | None, lacks: list[Loss]
+    ) -> None:
         self.path, self.name, self.format_name = path, name, format_name
         self._fingerprint = self._asked_about = fingerprint
         # What the file does not hold already is no news when it is saved there again.
-        self._opened_losses = losses(self._window.document.clip, format_name, path or None)
-        self._accepted_losses = self._opened_losses
+        self._opened_losses = self._accepted_losses = lacks
         self.changed.emit()
 
     def _remember(self, path: str) -> None:
@@ -259,3 +348,14 @@ class Files(QObject):
     def _folder(self) -> str:
         folder = str(Path(self.path).parent) if self.path else self._window.settings.last_folder
         return folder if os.path.isdir(folder) else home_folder()
+
+
+def _small_file(path: str) -> bool:
+    try:
+        return os.path.getsize(path) <= FEW_BYTES
+    except OSError:
+        return True  # what is wrong is found at once
+
+
+def _small(content: Content) -> bool:
+    return len(content.channels) <= FEW_CHANNELS and sum(len(c.run) for c in content.channels) <= FEW_KEYS

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from app.crash_bar import CrashBar
     from app.files import Files
     from app.in_hand import InHand
+    from app.jobs import Jobs
     from app.menus import WindowAction
     from app.questions import Questions
     from app.status_row import StatusRow
@@ -43,6 +44,7 @@ class MainWindow(QMainWindow):
     document: "Document"
     session: "Session"
     undo_stack: "UndoStack"
+    jobs: "Jobs"
     files: "Files"
     questions: "Questions"
     view: "CurveView"
@@ -217,7 +219,7 @@ class MainWindow(QMainWindow):
             event.accept()
             return
         self.session.playing = False
-        if not self.files.may_lose_changes():
+        if not self.files.may_close():
             event.ignore()
             return
         from app.workbench import keep_state

@@ -1,4 +1,4 @@
-"""StatusRow: the bottom line of the window: transport, messages, what is selected, what the mouse does here."""
+"""StatusRow: the bottom line of the window: transport, progress, messages, what is selected, what the mouse does."""
 
 from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
@@ -38,7 +38,7 @@ class ElidedLabel(QLabel):
 class StatusRow(QWidget):
     """The transport, then messages, the selection and mouse hints: beside it where there is room, else under it."""
 
-    def __init__(self, transport: QWidget, width: int) -> None:
+    def __init__(self, transport: QWidget, progress: QWidget, width: int) -> None:
         """*width* is what it will have at first, so that the first picture is not laid out twice."""
         super().__init__()
         self._transport = transport
@@ -56,6 +56,7 @@ class StatusRow(QWidget):
         self._line = line = QHBoxLayout()
         line.setContentsMargins(8, 0, 8, 0)
         line.setSpacing(16)
+        line.addWidget(progress)
         line.addWidget(self.message)
         line.addWidget(self.selection)
         line.addWidget(self.hint, 1)

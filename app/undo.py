@@ -1,5 +1,7 @@
 """UndoStack: what the document committed, as steps that can be taken back."""
 
+from typing import NamedTuple
+
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
@@ -31,24 +33,67 @@ class EditCommand(QUndoCommand):
         self._stack.apply(self.edit.inverse())
 
 
+class Mark(NamedTuple):
+    """A state of the document in its history."""
+
+    step: int
+    edit: Edit | None  # that led there; None where the history begins
+    history: int  # they are counted: each clip has its own
+
+    def same(self, other: "Mark") -> bool:
+        """Whether both are one state."""
+        return self.edit is other.edit and (self.step, self.history) == (other.step, other.history)
+
+
 class UndoStack(QUndoStack):
     """The history of one document; its clean index is the state that was last opened or saved."""
 
     def __init__(self, document: Document, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._document = document
+        self._history = 0
+        self._passing = False
         document.committed.connect(self._push)
         document.clip_replaced.connect(self._forget)
 
     def _push(self, edit: Edit) -> None:
         self.push(EditCommand(self, edit))
 
+    def mark(self) -> Mark:
+        """The state that the document is in."""
+        return self._mark_at(self.index())
+
+    def _mark_at(self, index: int) -> Mark:
+        command = self.command(index - 1) if index else None
+        return Mark(index, command.edit if isinstance(command, EditCommand) else None, self._history)
+
+    def set_saved(self, mark: Mark) -> None:
+        """Let *mark*, in which the document was when it was saved, be the clean state, wherever it is by now."""
+        if mark.step > self.count() or not self._mark_at(mark.step).same(mark):
+            self.resetClean()  # the way there is gone
+            return
+        here = self.index()
+        if here == mark.step:
+            self.setClean()
+            return
+        # Qt can only call the present state clean: the history goes there and back while the document stays.
+        self._passing = True
+        try:
+            self.setIndex(mark.step)
+            self.setClean()
+            self.setIndex(here)
+        finally:
+            self._passing = False
+
     def _forget(self) -> None:
+        self._history += 1
         self.clear()
         self.setClean()  # clear() leaves the mark alone when there is nothing to clear
 
     def apply(self, edit: Edit) -> None:
         """Bring the document to the other side of *edit*; an open gesture is cancelled first."""
+        if self._passing:
+            return
         try:
             if self._document.gesture is not None:
                 self._document.gesture.cancel()
@@ -59,5 +104,6 @@ class UndoStack(QUndoStack):
             raise
 
     def _drop_history(self) -> None:
+        self._history += 1
         self.clear()
         self.resetClean()

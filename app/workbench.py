@@ -13,7 +13,9 @@ from app.crash_bar import CrashBar
 from app.crash_reports import log_path
 from app.file_menus import RecentMenu, SamplesMenu
 from app.files import Files
+from app.jobs import Jobs
 from app.menus import make_actions, make_menus, make_toolbar, shortcut_text
+from app.progress_row import ProgressRow
 from app.questions import Questions
 from app.settings import LAYOUT_VERSION
 from app.shortcut_guard import ShortcutGuard
@@ -64,6 +66,7 @@ def assemble(window: "MainWindow", document: Document | None, opened: Opened | N
         setattr(window.session, name, getattr(window.settings, name))
     window.questions = Questions(window)
     window.undo_stack = UndoStack(document, window)
+    window.jobs = Jobs(window)
     window.files = Files(window)
     window.disk_look = Soon(window, window.files.look_at_disk)
     _make_parts(window)
@@ -110,7 +113,7 @@ def _make_parts(window: "MainWindow") -> None:
     window.inspector = KeyInspector(document, theme)
     window.transport = Transport(document, theme)
     window.crash_bar = CrashBar(str(log_path()))
-    window.status = StatusRow(window.transport, window.width())
+    window.status = StatusRow(window.transport, ProgressRow(window.jobs, window), window.width())
     middle = QWidget()
     column = QVBoxLayout(middle)
     column.setContentsMargins(0, 0, 0, 0)

@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from model.clip import Clip
-from model.formats import FORMATS, FormatError, format_of_path, read_content, write_bytes
+from model.formats import FORMATS, FormatError, format_of_path, read_content, write_content
 from model.formats.content import Content, differences
+from model.progress import Report, part_of, unheard
 
 type Verify = Callable[[bytes], None]
 
@@ -57,16 +58,23 @@ def save_clip(clip: Clip, path: str | os.PathLike[str], format_name: str | None 
     What the format cannot hold is left out (ask ``losses`` before). The file is read back and compared with the clip
     before it takes the place of the old one. Raises SaveError and FormatError, then the old file is untouched.
     """
-    name = os.fspath(path)
-    format_name = format_name or format_of_path(name)
+    format_name = format_name or format_of_path(path)
     if format_name is None:
         known = ", ".join(row.extension for row in FORMATS.values())
-        raise SaveError(name, f"the extension tells no format; one of {known} does")
-    data = write_bytes(clip, format_name)
-    wanted = FORMATS[format_name].held(Content.of(clip))
+        raise SaveError(os.fspath(path), f"the extension tells no format; one of {known} does")
+    return save_content(Content.of(clip), path, format_name)
+
+
+def save_content(
+    content: Content, path: str | os.PathLike[str], format_name: str, report: Report = unheard
+) -> SaveResult:
+    """The same of what a clip held. A CancelledError from *report* leaves the old file untouched too."""
+    name = os.fspath(path)
+    data = write_content(content, format_name, part_of(report, 0.0, 0.4))
+    wanted = FORMATS[format_name].held(content)
 
     def verify(written: bytes) -> None:
-        lost = differences(wanted, read_content(written, name, beside=False))
+        lost = differences(wanted, read_content(written, name, beside=False, report=part_of(report, 0.5, 1.0)))
         if lost:
             raise SaveError(name, f"what was written is not the clip ({lost[0]})")
 

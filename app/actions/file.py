@@ -10,6 +10,7 @@ HAS_CHANGES = Need(
     lambda w: w.files.modified or not w.files.path or w.in_entry,
     "there is nothing to save",
 )
+NO_JOB = Need(lambda w: w.jobs.job is None, "a file is being opened or saved; Esc cancels that")
 DIFFERS_FROM_FILE = Need(lambda w: w.files.modified, "the clip is as it is in its file")
 
 
@@ -22,6 +23,7 @@ FILE_ACTIONS = (
         shortcuts=(QKeySequence.StandardKey.New,),
         icon="new",
         tip="Start an empty clip",
+        needs=(NO_JOB,),
     ),
     Action(
         id="file.open",
@@ -31,6 +33,7 @@ FILE_ACTIONS = (
         shortcuts=(QKeySequence.StandardKey.Open,),
         icon="open",
         tip="Open a clip; a .skel file opened with it names its channels",
+        needs=(NO_JOB,),
     ),
     Action(
         id="file.name_channels",
@@ -48,7 +51,7 @@ FILE_ACTIONS = (
         shortcuts=(QKeySequence.StandardKey.Save,),
         icon="save",
         tip="Write the clip to its file",
-        needs=(HAS_CHANGES,),
+        needs=(NO_JOB, HAS_CHANGES),
         begins_group=True,
     ),
     Action(
@@ -59,6 +62,7 @@ FILE_ACTIONS = (
         shortcuts=("Ctrl+Shift+S",),
         icon="save-as",
         tip="Write the clip to another file or in another format",
+        needs=(NO_JOB,),
     ),
     Action(
         id="file.revert",
@@ -66,7 +70,7 @@ FILE_ACTIONS = (
         label="Re&vert to File…",
         function=lambda w: w.files.revert(),
         tip="Read the file again and drop the changes made since",
-        needs=(HAS_A_FILE, DIFFERS_FROM_FILE),
+        needs=(NO_JOB, HAS_A_FILE, DIFFERS_FROM_FILE),
     ),
     Action(
         id="file.quit",

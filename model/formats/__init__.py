@@ -12,19 +12,24 @@ from model.formats import anim, native, skel
 from model.formats.content import Content, Loss, differences
 from model.formats.error import MAX_FILE_BYTES, MAX_LINES, MAX_TOKEN_BYTES, FormatError, TextError, shown
 from model.formats.foreign import foreign_kind
+from model.progress import Report, part_of, unheard
 
 __all__ = [
     "FORMATS",
     "Format",
     "FormatError",
     "Loss",
+    "clip_from",
     "format_of_path",
     "losses",
+    "losses_of",
     "read_bytes",
     "read_clip",
     "read_content",
+    "read_file",
     "sniff",
     "write_bytes",
+    "write_content",
 ]
 
 type Skeleton = str | os.PathLike[str] | None
@@ -36,8 +41,8 @@ class Format(NamedTuple):
     label: str
     extension: str
     begins: re.Pattern[bytes]
-    read: Callable[[bytes], Content]
-    write: Callable[[Content], bytes]
+    read: Callable[[bytes, Report], Content]
+    write: Callable[[Content, Report], bytes]
     held: Callable[[Content], Content]
 
 
@@ -75,16 +80,23 @@ def read_clip(path: str | os.PathLike[str], *, skeleton: Skeleton = None) -> Cli
     A .skel beside it, or *skeleton*, names the channels of a course .anim. Raises FormatError and nothing else.
     """
     name = os.fspath(path)
-    content = read_content(_bytes_of(name), name, skeleton=skeleton)
-    return _clip_of(content, name)
+    return clip_from(read_file(name), name, skeleton=skeleton)
+
+
+def clip_from(data: bytes, name: str, *, skeleton: Skeleton = None, report: Report = unheard) -> Clip:
+    """The clip in *data*, the bytes of the file at the path *name*; else as read_clip."""
+    content = read_content(data, name, skeleton=skeleton, report=part_of(report, 0.0, 0.7))
+    return _clip_of(content, name, part_of(report, 0.7, 1.0))
 
 
 def read_bytes(data: bytes, name: str) -> Clip:
     """The clip in *data*, called *name* in messages. Raises FormatError."""
-    return _clip_of(read_content(data, name, beside=False), name)
+    return _clip_of(read_content(data, name, beside=False), name, unheard)
 
 
-def read_content(data: bytes, name: str, *, skeleton: Skeleton = None, beside: bool = True) -> Content:
+def read_content(
+    data: bytes, name: str, *, skeleton: Skeleton = None, beside: bool = True, report: Report = unheard
+) -> Content:
     """What *data* says, before any channel is built.
 
     With *beside* the folder of the path *name* is searched for a .skel. Raises FormatError.
@@ -93,7 +105,7 @@ def read_content(data: bytes, name: str, *, skeleton: Skeleton = None, beside: b
     text = data.removeprefix(_MARK)
     try:
         _check_text(text, format_name)
-        content = FORMATS[format_name].read(text)
+        content = FORMATS[format_name].read(text, report)
     except TextError as fault:
         raise fault.in_file(name, text) from None
     if format_name == "anim":
@@ -103,10 +115,15 @@ def read_content(data: bytes, name: str, *, skeleton: Skeleton = None, beside: b
 
 def write_bytes(clip: Clip, format_name: str) -> bytes:
     """*clip* as a file of this format; what the format cannot hold is left out. Raises FormatError."""
+    return write_content(Content.of(clip), format_name)
+
+
+def write_content(content: Content, format_name: str, report: Report = unheard) -> bytes:
+    """The same of what a clip held."""
     try:
-        return FORMATS[format_name].write(Content.of(clip))
+        return FORMATS[format_name].write(content, report)
     except TextError as fault:
-        raise FormatError(clip.title or "the clip", 0, 0, fault.problem, fault.remedy) from None
+        raise FormatError(content.title or "the clip", 0, 0, fault.problem, fault.remedy) from None
 
 
 def losses(clip: Clip, format_name: str, path: str | os.PathLike[str] | None = None) -> list[Loss]:
@@ -114,16 +131,20 @@ def losses(clip: Clip, format_name: str, path: str | os.PathLike[str] | None = N
 
     Names that a .skel beside *path* gives back are no loss.
     """
-    content = Content.of(clip)
+    return losses_of(Content.of(clip), format_name, path)
+
+
+def losses_of(content: Content, format_name: str, path: str | os.PathLike[str] | None = None) -> list[Loss]:
+    """The same of what a clip held."""
     held = FORMATS[format_name].held(content)
     if path is not None and format_name == "anim":
         held = _named_by_skeleton(held, os.fspath(path), None, beside=True)
     return differences(content, held)
 
 
-def _clip_of(content: Content, name: str) -> Clip:
+def _clip_of(content: Content, name: str, report: Report) -> Clip:
     try:
-        return content.clip()
+        return content.clip(report)
     except ValueError as error:
         raise FormatError(name, 0, 0, str(error)) from error
 
@@ -132,7 +153,7 @@ def _named_by_skeleton(content: Content, name: str, skeleton: Skeleton, *, besid
     count = len(content.channels)
     if skeleton is not None:
         skeleton_name = os.fspath(skeleton)
-        data = _bytes_of(skeleton_name)
+        data = read_file(skeleton_name)
         try:
             joints: list[str] | None = skel.joint_names(data)
         except TextError as fault:
@@ -170,7 +191,7 @@ def _check_text(data: bytes, format_name: str) -> None:
         raise TextError(-1, f"the file has more than {MAX_LINES:,} lines")
 
 
-def _bytes_of(name: str) -> bytes:
+def read_file(name: str) -> bytes:
     """The bytes of a regular file of a bearable size. Raises FormatError with one sentence for whatever is wrong."""
     try:
         status = os.stat(name)

@@ -15,6 +15,7 @@ from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
 from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token
 from model.keyframe import Run, TangentRule
+from model.progress import Report, unheard
 
 # Words of the course; the word "step" is ours and is only read: its tokenizer would take it for slope 0.
 _WRITTEN: Final = {
@@ -28,9 +29,9 @@ _CHANNEL: Final = re.compile(rb"\bchannel\b")
 _MODES: Final = {mode.word: mode for mode in Extrapolation}
 
 
-def read(data: bytes) -> Content:
+def read(data: bytes, report: Report = unheard) -> Content:
     """The content of a course .anim; channels are named ``channel 0``, ``channel 1`` ... . Raises TextError."""
-    scanner = Scanner(data)
+    scanner = Scanner(data, report=report)
     scanner.expect(b"animation")
     scanner.expect(b"{", "'{' after 'animation'")
     span: tuple[float, float] | None = None
@@ -101,7 +102,7 @@ def _read_keys(scanner: Scanner) -> Run:
     # A key takes 8 bytes at least ("0 0 1 1" and a blank): a number beyond that is refused before anything is made.
     if announced > min(MAX_KEYS, (len(scanner.data) - start) // 8 + 1):
         raise TextError(token.start, f"{announced} keys are announced, more than the file can hold")
-    run = run_from_text(scanner.data, start, scanner.end_of_block(), _WORDS_IN, _WORDS_OUT, flags=False)
+    run = run_from_text(scanner, start, scanner.end_of_block(), _WORDS_IN, _WORDS_OUT, flags=False)
     if len(run) != announced:
         raise TextError(
             token.start, f"{announced} keys are announced, but {len(run)} follow", "correct the number of keys"
@@ -138,13 +139,13 @@ def _held_run(run: Run) -> Run:
     return run
 
 
-def write(content: Content) -> bytes:
+def write(content: Content, report: Report = unheard) -> bytes:
     """The text of *content*, of which only what ``held`` leaves is in it."""
     content = held(content)
     head = f"animation {{\n  range {content.start!r} {content.end!r}\n  numchannels {len(content.channels)}\n"
     parts = [head.encode()]
     keys = KeyWriter(_WRITTEN, "      ", "\t", flags=False)
-    texts = keys.texts([channel.run for channel in content.channels])
+    texts = keys.texts([channel.run for channel in content.channels], report)
     for channel, text in zip(content.channels, texts, strict=True):
         parts += [
             f"  channel {{\n    extrapolate {channel.pre.word} {channel.post.word}\n".encode(),

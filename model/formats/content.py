@@ -12,6 +12,7 @@ from model.clip import Clip
 from model.extrapolation import Extrapolation
 from model.keyframe import Run, TangentRule
 from model.labels import counted
+from model.progress import Report, unheard
 
 _FIXED = TangentRule.FIXED
 
@@ -48,12 +49,12 @@ class Content:
         ]
         return cls(float(clip.start), float(clip.end), channels, float(clip.frame_rate), clip.title)
 
-    def clip(self) -> Clip:
+    def clip(self, report: Report = unheard) -> Clip:
         """A new clip with this content."""
-        channels = [
-            Channel(c.name, c.run, pre=c.pre, post=c.post, unit=c.unit, color=c.color, locked=c.locked)
-            for c in self.channels
-        ]
+        channels = []
+        for number, c in enumerate(self.channels):
+            report(number / len(self.channels))
+            channels.append(Channel(c.name, c.run, pre=c.pre, post=c.post, unit=c.unit, color=c.color, locked=c.locked))
         return Clip(channels, start=self.start, end=self.end, frame_rate=self.frame_rate, title=self.title)
 
     def named(self, names: list[str], units: list[str]) -> "Content":
@@ -81,6 +82,8 @@ def differences(wanted: Content, held: Content) -> list[Loss]:
 
     Empty when they are the same bit for bit.
     """
+    if wanted is held:
+        return []
     if len(wanted.channels) != len(held.channels):
         sentence = f"there are {len(held.channels)} channels instead of {len(wanted.channels)}"
         return [Loss("all channels", sentence, in_motion=True)]

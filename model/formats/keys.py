@@ -12,7 +12,9 @@ from model.formats.decimals import CELL, Cells, fill_cells
 from model.formats.error import MAX_KEYS, MAX_TOKEN_BYTES, TextError, shown
 from model.formats.key_errors import first_error, order_error
 from model.formats.numerals import Columns, columns_of
+from model.formats.scanner import Scanner
 from model.keyframe import KEY_DTYPE, Run, TangentRule
+from model.progress import Report, unheard
 
 _FIXED: Final = int(TangentRule.FIXED)
 BROKEN: Final = b"broken"
@@ -26,18 +28,19 @@ _SMALL: Final = 1 << 13  # bytes below which one word after the other is quicker
 _LINES: Final = 4096  # written at once
 
 
-def run_from_text(data: bytes, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Run:
-    """The keys written in data[start:end].
+def run_from_text(scanner: Scanner, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Run:
+    """The keys written in the scanner's data[start:end].
 
     A tangent is a word of *words_in* / *words_out* or a number, the slope of a fixed tangent (value per second).
     With *flags* the word ``broken`` may follow a key. The slopes of all other rules are left 0. Raises TextError at the
     first word that is wrong; times must strictly increase.
     """
-    flag = BROKEN if flags else b""
+    data, flag = scanner.data, BROKEN if flags else b""
     pieces: list[Columns] = []
     position = start
     count = 0
     while position < end:
+        scanner.passed(position)
         late_flag = _FLAG.match(data, position, min(end, position + _PIECE)) if flags and pieces else None
         if late_flag is not None:  # of a key at the end of the piece before
             if pieces[-1].broken[-1]:
@@ -146,10 +149,14 @@ class KeyWriter:
         self._words = np.array([_quads(words.get(rule, ""), 2) for rule in range(max(TangentRule) + 1)])
         self._ends = _quads("\n", 2), _quads(f"{separator}{BROKEN.decode()}\n", 2)
 
-    def texts(self, runs: Sequence[Run]) -> list[bytes]:
+    def texts(self, runs: Sequence[Run], report: Report = unheard) -> list[bytes]:
         """The lines of each run; all runs are worked on together, since there may be many short ones."""
         keys = runs[0] if len(runs) == 1 else np.concatenate([np.zeros(0, KEY_DTYPE), *runs])
-        text = b"".join([self._lines(keys[i : i + _LINES]) for i in range(0, len(keys), _LINES)])
+        pieces = []
+        for first in range(0, len(keys), _LINES):
+            report(first / len(keys))
+            pieces.append(self._lines(keys[first : first + _LINES]))
+        text = b"".join(pieces)
         if len(runs) == 1:
             return [text]
         ends = np.flatnonzero(np.frombuffer(text, np.uint8) == ord("\n")) + 1

@@ -18,6 +18,7 @@ from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
 from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token, checked_text, quoted
 from model.keyframe import Run, TangentRule
+from model.progress import Report, unheard
 
 VERSION: Final = 1
 _WRITTEN: Final = {int(rule): rule.word for rule in TangentRule if rule is not TangentRule.FIXED}
@@ -27,9 +28,9 @@ _MODES: Final = {mode.word: mode for mode in Extrapolation}
 _COLOR: Final = re.compile(r"#[0-9a-fA-F]{6}\Z")
 
 
-def read(data: bytes) -> Content:
+def read(data: bytes, report: Report = unheard) -> Content:
     """The content of a native file. Raises TextError."""
-    scanner = Scanner(data)
+    scanner = Scanner(data, report=report)
     scanner.expect(b"hermite")
     _check_version(scanner)
     if data.count(b"\nchannel") > MAX_CHANNELS:
@@ -116,7 +117,7 @@ def _read_channel(scanner: Scanner) -> ChannelContent:
 def _read_keys(scanner: Scanner) -> Run:
     token = scanner.expect(b"{", "'{' of the keys")
     start = scanner.position
-    run = run_from_text(scanner.data, start, scanner.end_of_block(), _WORDS_IN, _WORDS_OUT, flags=True)
+    run = run_from_text(scanner, start, scanner.end_of_block(), _WORDS_IN, _WORDS_OUT, flags=True)
     if len(run) > MAX_KEYS:
         raise TextError(token.start, f"{len(run)} keys in one channel; at most {MAX_KEYS} are read")
     return run
@@ -133,7 +134,7 @@ def held(content: Content) -> Content:
     return content
 
 
-def write(content: Content) -> bytes:
+def write(content: Content, report: Report = unheard) -> bytes:
     """The text of *content*, the same bytes for the same content. Raises TextError when a text is too long."""
     keys = KeyWriter(_WRITTEN, "    ", " ", flags=True)
     head = [f"hermite {VERSION}\n"]
@@ -141,7 +142,7 @@ def write(content: Content) -> bytes:
         head.append(f"title {quoted(checked_text(content.title, 'the title'))}\n")
     head.append(f"range {content.start!r} {content.end!r}\nrate {content.frame_rate!r}\n")
     parts = ["".join(head).encode()]
-    texts = keys.texts([channel.run for channel in content.channels])
+    texts = keys.texts([channel.run for channel in content.channels], report)
     for channel, text in zip(content.channels, texts, strict=True):
         parts += [_channel_head(channel).encode(), text, b"  }\n}\n"]
     parts.append(b"\nend\n")

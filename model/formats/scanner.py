@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 
 from model.formats.error import MAX_NAME_BYTES, MAX_TOKEN_BYTES, TextError, shown
 from model.formats.numerals import NUMBER
+from model.progress import Report, unheard
 
 _BLANKS: Final = re.compile(rb"[ \t\r\n]*")
 # A brace ends a word, so that "channel 14{" reads as three words.
@@ -26,9 +27,14 @@ class Token(NamedTuple):
 class Scanner:
     """A place in *data* that only moves forward; every refusal is a TextError at the word it is about."""
 
-    def __init__(self, data: bytes, position: int = 0) -> None:
+    def __init__(self, data: bytes, *, report: Report = unheard) -> None:
         self.data = data
-        self.position = position
+        self.position = 0
+        self._report = report
+
+    def passed(self, position: int) -> None:
+        """Report that all before *position* is read."""
+        self._report(position / len(self.data))
 
     def peek(self) -> Token:
         """The next word, not taken."""
@@ -91,6 +97,7 @@ class Scanner:
                 len(self.data), "expected '}' after the keys, found the end of the file", "is the file whole?"
             )
         self.position = end + 1
+        self.passed(end)
         return end
 
     def text(self, what: str) -> str:

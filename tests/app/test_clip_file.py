@@ -7,8 +7,7 @@ import pytest
 
 import app.clip_file
 from app.clip_file import changed_since, fingerprint_of, open_clip
-from model.clip import Clip
-from model.formats import FormatError, read_clip
+from model.formats import FormatError, read_file
 
 CLIP = b"""animation {
   range 0 1
@@ -59,12 +58,12 @@ def test_opening_tells_format_and_absolute_path(path: Path, monkeypatch: pytest.
 
 
 def test_a_file_that_is_written_while_it_is_read_counts_as_changed(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def read_and_be_overtaken(name: str, skeleton: str | None = None) -> Clip:
-        clip = read_clip(name, skeleton=skeleton)
+    def read_and_be_overtaken(name: str) -> bytes:
+        data = read_file(name)
         path.write_bytes(CLIP.replace(b"0 1 flat", b"0 25 flat"))
-        return clip
+        return data
 
-    monkeypatch.setattr(app.clip_file, "read_clip", read_and_be_overtaken)
+    monkeypatch.setattr(app.clip_file, "read_file", read_and_be_overtaken)
     opened = open_clip(str(path))
     assert changed_since(str(path), opened.fingerprint)
 

@@ -9,14 +9,16 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-import app.files
+import app.clip_file
 from app.file_menus import SAMPLES_FOLDER, RecentMenu, samples
 from app.main_window import MainWindow
 from app.questions import Answer
 from model.channel import Channel
 from model.clip import Clip
 from model.formats import read_clip, write_bytes
+from model.formats.content import Content
 from model.keyframe import make_run
+from model.progress import Report
 from model.saving import Durability, SaveError, SaveResult
 from tests.app.conftest import MakeWindow, answers_of, small_clip
 
@@ -234,10 +236,10 @@ def test_native_is_offered_instead_and_taken(
 
 
 def test_a_failed_save_is_told_and_the_clip_stays_unsaved(opened: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(clip: Clip, path: str, format_name: str) -> SaveResult:
+    def fail(content: Content, path: str, format_name: str, report: Report) -> SaveResult:
         raise SaveError(path, "no space left on the device")
 
-    monkeypatch.setattr(app.files, "save_clip", fail)
+    monkeypatch.setattr(app.clip_file, "save_content", fail)
     change(opened)
     assert not opened.save()
     assert "no space left" in answers_of(opened).told[0]
@@ -247,10 +249,10 @@ def test_a_failed_save_is_told_and_the_clip_stays_unsaved(opened: MainWindow, mo
 def test_a_save_that_the_disk_did_not_confirm_counts_as_unsaved(
     opened: MainWindow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def doubt(clip: Clip, path: str, format_name: str) -> SaveResult:
+    def doubt(content: Content, path: str, format_name: str, report: Report) -> SaveResult:
         return SaveResult(Path(path), Durability.UNCONFIRMED, ("the disk did not confirm the save",))
 
-    monkeypatch.setattr(app.files, "save_clip", doubt)
+    monkeypatch.setattr(app.clip_file, "save_content", doubt)
     change(opened)
     assert not opened.save()
     assert "did not confirm" in answers_of(opened).told[0]

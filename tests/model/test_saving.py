@@ -199,8 +199,8 @@ def test_the_extension_tells_the_format_of_a_saved_clip(tmp_path: Path, clip: Cl
 def test_a_writer_that_errs_never_reaches_the_file(
     target: Path, monkeypatch: pytest.MonkeyPatch, format_name: str
 ) -> None:
-    real = saving.write_bytes
-    monkeypatch.setattr(saving, "write_bytes", lambda *arguments: real(*arguments).replace(b"0.2", b"0.3"))
+    real = saving.write_content
+    monkeypatch.setattr(saving, "write_content", lambda *arguments: real(*arguments).replace(b"0.2", b"0.3"))
     with pytest.raises(SaveError, match="what was written is not the clip"):
         save_clip(FULL, target, format_name)
     assert target.read_bytes() == OLD
