@@ -88,12 +88,13 @@ class Edit:
 class Touched:
     """What changes have touched, and so what must be told."""
 
-    __slots__ = ("intervals", "membership", "settings")
+    __slots__ = ("intervals", "keys_came_or_went", "membership", "settings")
 
     def __init__(self) -> None:
         self.intervals: dict[Channel, tuple[float, float]] = {}
         self.settings: dict[tuple[Channel | Clip, str], None] = {}
         self.membership = False
+        self.keys_came_or_went = False
 
     def widen(self, channel: Channel, t0: float, t1: float) -> None:
         """Add [t0, t1] of *channel*; t0 > t1 adds nothing."""
@@ -109,6 +110,7 @@ class Touched:
             self.widen(channel, t0, t1)
         self.settings.update(other.settings)
         self.membership |= other.membership
+        self.keys_came_or_went |= other.keys_came_or_went
 
     def copy(self) -> "Touched":
         """The same once more."""
@@ -131,17 +133,20 @@ def validated(change: Change) -> Change:
     return change._replace(after=settings[change.field](change.field, change.after))
 
 
-def put(clip: Clip, change: Change, touched: Touched) -> Change:
+def put(clip: Clip, change: Change, touched: Touched, *, read_back: bool = True) -> Change:
     """Make one change and return it as stored, with the ids that new keys got; ValueError if it cannot be made.
+
+    Without *read_back* the keys of a splice keep the slopes that they were given with.
 
     Nothing has changed after an error. Unique names and the order of the range are the business of `check_whole`,
     since a list of changes may pass through what it must not end with.
     """
     if isinstance(change, Splice):
         channel, before, after = change
-        t0, t1, stored = channel.splice(before, after)
+        t0, t1, given, same_ids = channel.replace(before, after)
         touched.widen(channel, t0, t1)
-        return Splice(channel, before, stored)
+        touched.keys_came_or_went |= not same_ids
+        return Splice(channel, before, channel.stored(given) if read_back else given)
     if isinstance(change, Setting):
         return _set(change, touched)
     if tuple(clip.channels) != change.before:

@@ -27,6 +27,15 @@ class Reach(NamedTuple):
     run: Run
 
 
+class Spliced(NamedTuple):
+    """The same (t0, t1); the keys as they were given, with the ids that new ones got; whether no key came or went."""
+
+    t0: float
+    t1: float
+    given: Run
+    same_ids: bool
+
+
 class Channel(Curve):
     """The keys of one animated number, in strictly increasing time, and the curve through them.
 
@@ -48,7 +57,7 @@ class Channel(Curve):
         self.name, self.unit, self.color, self.locked = name, unit, color, locked
         self._next_id = 1
         if run is not None and len(run):
-            self._splice(run[:0], run)
+            self.replace(run[:0], run)
             self.revision = 0
 
     def __repr__(self) -> str:
@@ -188,11 +197,18 @@ class Channel(Curve):
         """
         if not len(before) and not len(after):
             return Reach(inf, -inf, after)
-        t0, t1, rank0, rank1 = self._splice(before, after)
-        return Reach(t0, t1, self._run(rank0, rank1))
+        done = self.replace(before, after)
+        return Reach(done.t0, done.t1, self.stored(done.given))
 
-    def _splice(self, before: Run, after: Run) -> tuple[float, float, int, int]:
-        """Do what `splice` says: (t0, t1) of what changed, (rank0, rank1) of the new keys."""
+    def stored(self, given: Run) -> Run:
+        """The neighbouring keys with the ids of *given* as the channel holds them; ValueError if they are not there."""
+        rank0 = splicing.rank_of_run(self._rows, given, given)
+        return self._run(rank0, rank0 + len(given))
+
+    def replace(self, before: Run, after: Run) -> Spliced:
+        """The same as `splice` without reading back what the channel has made of *after*."""
+        if not len(before) and not len(after):
+            return Spliced(inf, -inf, after, True)
         rows = self._rows
         rank0 = splicing.rank_of_run(rows, before, after)
         rank1 = rank0 + len(before)
@@ -210,10 +226,10 @@ class Channel(Curve):
         splicing.rebuild(rows, min(moved0, rank0), max(moved1, rank1))
         self._changed()
         if not old_size or not rows.size:
-            return -inf, inf, rank0, rank1
+            return Spliced(-inf, inf, after, False)
         old_times = (float(before["time"][0]), float(before["time"][-1])) if len(before) else (inf, -inf)
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
-        return t0, t1, rank0, rank1
+        return Spliced(t0, t1, after, same_ids)
 
     def hold(self) -> None:
         """Keep from now on what splices overwrite, so that `rewind` can bring the keys of this moment back."""
@@ -240,7 +256,7 @@ class Channel(Curve):
         twin = Channel(self.name, pre=self.pre, post=self.post, unit=self.unit, color=self.color, locked=self.locked)
         twin._next_id = self._next_id
         if len(self):
-            twin._splice(self._run(0, 0), self.run())
+            twin.replace(self._run(0, 0), self.run())
         return twin
 
     def check(self) -> None:

@@ -12,7 +12,7 @@ from model.clip import Clip
 from model.event import Event
 from model.keyframe import Run
 from model.labels import counted, label_of
-from model.selection import NO_IDS, Ids, Selection
+from model.selection import NO_IDS, Ids, Selection, ids_without
 from model.session import Session
 
 __all__ = ["Change", "Document", "Edit", "Gesture", "Membership", "Setting", "Splice", "added_keys"]
@@ -26,7 +26,7 @@ def added_keys(changes: Sequence[Change]) -> Selection:
     """The keys that *changes* add: what a paste or an insertion selects."""
     gone, come = _ids_by_channel(changes)
     return Selection.of(
-        {channel: np.setdiff1d(ids, gone[channel]) if channel in gone else ids for channel, ids in come.items()}
+        {channel: ids_without(ids, gone[channel]) if channel in gone else ids for channel, ids in come.items()}
     )
 
 
@@ -55,7 +55,7 @@ def replaced_keys(changes: Sequence[Change]) -> int:
         for change in changes
         if isinstance(change, Splice) and change.channel in gone and not _only_deletes(change)
     }
-    return sum(len(np.setdiff1d(gone[channel], come.get(channel, NO_IDS))) for channel in replacing)
+    return sum(len(ids_without(gone[channel], come.get(channel, NO_IDS))) for channel in replacing)
 
 
 def _only_deletes(splice: Splice) -> bool:
@@ -118,8 +118,10 @@ class Document:
         """As "Move 14 keys of root.tx by +0.10 s"."""
         return label_of(verb, selection, d_time, d_value)
 
-    def _put_all(self, changes: Iterable[Change], touched: Touched, *, new: bool = False) -> list[Change]:
-        """Make all *changes* and return them as stored; after an error nothing has changed.
+    def _put_all(
+        self, changes: Iterable[Change], touched: Touched, *, new: bool = False, read_back: bool = True
+    ) -> list[Change]:
+        """Make all *changes* and return them as stored (see `put`); after an error nothing has changed.
 
         Those that are *new*, and not the way back or forth, must also leave the clip as a clip has to be.
         """
@@ -129,7 +131,7 @@ class Document:
         stored: list[Change] = []
         try:
             for change in changes:
-                stored.append(put(self.clip, validated(change) if new else change, touched))
+                stored.append(put(self.clip, validated(change) if new else change, touched, read_back=read_back))
             if new and (touched.membership or touched.settings):
                 check_whole(self.clip, touched)
         except BaseException:
@@ -172,6 +174,7 @@ class Gesture:
         self._put: list[Change] = []
         self._touched = Touched()  # by the present preview
         self._held: dict[Channel, None] = {}  # the channels that a preview has spliced
+        self._all_read_back = True  # whether slopes in what was put in are those that the channel holds
         self._fresh: dict[Channel, Ids] = {}
 
     def __enter__(self) -> "Gesture":
@@ -190,16 +193,18 @@ class Gesture:
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """The changes of the present preview as stored."""
+        """The changes of the present preview, with the ids of new keys; slopes by rule are as they were given."""
         return tuple(self._put)
 
     @property
     def covered(self) -> dict[Channel, Run]:
         """The keys of the start that the present preview hides; they come back when it moves on."""
+        if self.keeps_keys:
+            return {}
         gone, come = _ids_by_channel(self._put)
         covered = {}
         for channel, ids in gone.items():
-            hidden = np.setdiff1d(ids, come[channel]) if channel in come else ids
+            hidden = ids_without(ids, come[channel]) if channel in come else ids
             parts = [
                 splice.before[np.isin(splice.before["id"], hidden)]
                 for splice in self._put
@@ -208,6 +213,11 @@ class Gesture:
             if any(len(part) for part in parts):
                 covered[channel] = np.concatenate(parts)
         return covered
+
+    @property
+    def keeps_keys(self) -> bool:
+        """Whether the present preview changes keys where they stand in the order, and none comes or goes."""
+        return not self._touched.keys_came_or_went
 
     @property
     def keys_fewer(self) -> int:
@@ -229,7 +239,7 @@ class Gesture:
             chosen = selection(self._put) if callable(selection) else selection
         except BaseException:
             self._rewind()
-            self._put, self._touched = document._put_all(before, Touched()), told_before
+            self._put, self._touched, self._all_read_back = document._put_all(before, Touched()), told_before, True
             raise
         self._touched = touched.copy()
         touched.add(told_before)
@@ -244,7 +254,7 @@ class Gesture:
         The label also says how many keys were landed on and are gone.
         """
         document = self._require_open()
-        changes = differing(self._put)
+        changes = differing([self._read_back(change) for change in self._put])
         self._release()
         session = document.session
         document.gesture = None
@@ -304,7 +314,10 @@ class Gesture:
             splice = changes[i]
             assert isinstance(splice, Splice)
             changes[i] = self._with_known_ids(splice, used)
-        stored = self._document._put_all(changes, touched, new=True)
+        spliced = [change.channel for change in changes if isinstance(change, Splice)]
+        # What one splice of a channel has stored can be read when the gesture ends; another would change it.
+        self._all_read_back = len(set(spliced)) < len(spliced)
+        stored = self._document._put_all(changes, touched, new=True, read_back=self._all_read_back)
         for i in asking:
             wanted, got = changes[i], stored[i]
             assert isinstance(wanted, Splice)
@@ -314,6 +327,11 @@ class Gesture:
                 known = self._fresh.get(got.channel)
                 self._fresh[got.channel] = new if known is None else np.concatenate([known, new])
         return stored
+
+    def _read_back(self, change: Change) -> Change:
+        if not isinstance(change, Splice) or self._all_read_back:
+            return change
+        return change._replace(after=change.channel.stored(change.after))
 
     def _with_known_ids(self, splice: Splice, used: dict[Channel, int]) -> Splice:
         known = self._fresh.get(splice.channel)
@@ -327,9 +345,11 @@ class Gesture:
         return splice._replace(after=after)
 
     def _without_gone(self, selection: Selection) -> Selection:
+        if self.keeps_keys:
+            return selection
         gone, come = _ids_by_channel(self._put)
         hidden = {
-            channel: np.setdiff1d(ids, come[channel]) if channel in come else ids
+            channel: ids_without(ids, come[channel]) if channel in come else ids
             for channel, ids in gone.items()
             if len(selection.ids(channel))
         }

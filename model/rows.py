@@ -139,7 +139,7 @@ class Rows:
             return np.array(sorted({self.rank_of(key_id) for key_id in ids.tolist()}), np.int64)
         wanted = np.zeros(len(self.row_of), np.bool_)
         wanted[ids] = True
-        touched = np.unique(rows)
+        touched = np.flatnonzero(np.bincount(rows))
         place = np.arange(self.width)
         chosen = wanted[self.id_grid[touched]] & (place < (self.first[touched + 1] - self.first[touched])[:, None])
         in_row, at = np.nonzero(chosen)
