@@ -134,8 +134,9 @@ class Points(NamedTuple):
 
     def at(self, part: slice) -> "Points":
         """Some of them."""
-        slots, numbers = self[:2], self[2:]
-        return Points(*[column[part] for column in slots], *[column[..., part] for column in numbers])
+        next_slot, slot, u, value, key_value, turns, turn_values = self
+        several = (turns[:, part], turn_values[:, part])
+        return Points(next_slot[part], slot[part], u[part], value[part], key_value[part], *several)
 
 
 def _points(rows: Rows, times: Floats) -> Points:

@@ -85,9 +85,14 @@ class Window(NamedTuple):
         return self._replace(left=sides[0], top=sides[1], width=sides[2], height=sides[3], unit=self.unit * factor)
 
 
-def crowded(channel: Channel, window: Window) -> bool:
-    """Whether the window shows more keys than pixel columns, so that lines would only scribble."""
-    return channel.count_between(window.t0, window.t1) > window.width
+def keys_in(channel: Channel, window: Window) -> int:
+    """How many keys lie between the window's times."""
+    ends = channel.ends()
+    if ends is None:
+        return 0
+    if window.t0 <= ends.time0 and ends.time1 <= window.t1:
+        return len(channel)
+    return channel.count_between(window.t0, window.t1)
 
 
 def columns(channel: Channel, window: Window, first: int, last: int, *, inside: bool = True) -> tuple[Floats, Floats]:

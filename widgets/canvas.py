@@ -1,11 +1,11 @@
 """Canvas: the one graphics item that paints all curves, and the listener that knows which pixels a change touches."""
 
 from collections.abc import Callable
-from math import ceil, floor
+from math import ceil, floor, inf
 from typing import TYPE_CHECKING, Any, Final
 
 from PySide6.QtCore import QRect, QRectF, Qt, QTimer
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter
+from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 from shiboken6 import isValid
 
@@ -23,10 +23,11 @@ from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of
 from widgets.numbers import is_angle
-from widgets.stage import LABEL_SIZE, Overlay, Stage, pixel_size, unit_of
+from widgets.stage import LABEL_SIZE, Manner, Overlay, Stage, sized, unit_of
 from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
 from widgets.traces import Trace, live_channels, traces_of
+from widgets.words import words_in
 
 if TYPE_CHECKING:
     from widgets.curve_view import CurveView
@@ -56,6 +57,7 @@ class Canvas(QGraphicsItem):
         self._traces: tuple[tuple[Trace, ...], tuple[Trace, ...]] | None = None
         self._stage: Stage | None = None
         self._ticks: tuple[Window, bool, tuple[Ticks, Ticks]] | None = None
+        self._manners: tuple[Window, dict[Channel, tuple[int, Manner]]] | None = None
         self._selection: Selection | None = None
         self._playhead = document.session.playhead
         self._moving = False
@@ -156,10 +158,12 @@ class Canvas(QGraphicsItem):
         font = self._view.font()
         degrees = is_angle(unit_of((*self._traces[0], *self._traces[1])))
         if self._ticks is None or self._ticks[:2] != (window, degrees):
-            measuring = QFont(font)
-            measuring.setPixelSize(max(round(pixel_size(font) * LABEL_SIZE * window.unit), 1))
-            self._ticks = (window, degrees, ticks_of(window, QFontMetricsF(measuring), degrees=degrees))
+            width = words_in(sized(font, LABEL_SIZE, window.unit)).width
+            self._ticks = (window, degrees, ticks_of(window, width, degrees=degrees))
+        if self._manners is None or self._manners[0] != window:
+            self._manners = (window, {})
         stage = Stage(self._document, self._theme, window, *self._traces, self.overlay, *self._ticks[2], base_font=font)
+        stage.manners = self._manners[1]
         stage.labels, stage.hint = labels_of(stage), hint_of(stage)
         self._stage = stage
         self._selection = self._document.session.selection
@@ -226,10 +230,17 @@ class Canvas(QGraphicsItem):
             if self._traces is not None and any(trace.channel is channel for trace in self._traces[0]):
                 # Who is live has changed, but no pixel: it is drawn over the backdrop just as it was in it.
                 self._traces = self._stage = None
+        if self._looks_different(channel):
+            t0, t1 = -inf, inf
         self.backdrop.mark(channel, t0, t1)
         if self._document.session.shown(channel):
             self._repaint_change(channel, t0, t1)
             self._relabel(channel, t0, t1)
+
+    def _looks_different(self, channel: Channel) -> bool:
+        """Whether so many keys have come or gone that the whole channel is drawn in another manner."""
+        before = self._stage.manners.get(channel) if self._stage is not None else None
+        return self._stage is not None and before is not None and before[1] != self._stage.manner_of(channel)
 
     def _repaint_change(self, channel: Channel, t0: float, t1: float) -> None:
         """Repaint what has changed of a curve and, if they are few, its handles as painted last and as they are now."""

@@ -218,7 +218,6 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
             self._last_step = now
         self.view_range = view
         self._windows.clear()
-        self.getPlotItem().vb.setRange(xRange=view[:2], yRange=view[2:], padding=0, disableAutoRange=False)
         self.canvas.reframe()
         self.view_changed.emit()
 

@@ -5,7 +5,7 @@ from typing import Any, Final, cast
 import numpy as np
 import shiboken6
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QRect
+from PySide6.QtCore import QLineF, QRect, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QPolygonF
 
 from model.lines import Line
@@ -68,13 +68,17 @@ def draw_lines(painter: QPainter, lines: Floats, width: int = 1) -> None:
     painter.drawLines(_first(lines, QLineF), len(lines))
 
 
-def draw_boxes(painter: QPainter, x: NDArray[np.int32], y: NDArray[np.int32], wide: int, high: int) -> None:
-    """Boxes of whole pixels with their upper left corners at x, y, filled with the painter's brush."""
-    if not len(x):
+def draw_boxes(painter: QPainter, color: QColor, boxes: NDArray[np.int32]) -> None:
+    """Filled boxes (n, 4) of whole pixels: left, top, right, bottom, the last two included.
+
+    Upright and level lines are boxes too: a line one pixel thick takes four to seventy times as long.
+    """
+    if not len(boxes):
         return
-    boxes = np.empty((len(x), 4), np.int32)
-    boxes[:, 0], boxes[:, 1], boxes[:, 2], boxes[:, 3] = x, y, x + (wide - 1), y + (high - 1)
-    painter.drawRects(_first(boxes, QRect), len(boxes))
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(color)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    painter.drawRects(_first(np.ascontiguousarray(boxes, np.int32), QRect), len(boxes))
 
 
 def draw_marks(painter: QPainter, atlas: QPixmap, side: int, x: Floats, y: Floats, which: NDArray[np.intp]) -> None:

@@ -27,17 +27,16 @@ def draw_value_ruler(painter: QPainter, stage: Stage) -> None:
     window, theme = stage.window, stage.theme
     painter.fillRect(QRectF(0, window.top, window.left, window.height), theme.ruler)
     painter.setFont(stage.font(LABEL_SIZE))
-    metrics = stage.metrics(LABEL_SIZE)
+    words = stage.words(LABEL_SIZE)
     y = np.floor(window.y_from_value(stage.value_ticks.major)) + 0.5
     painter.setPen(hair(theme.ruler_line))
     start, end = np.full(len(y), window.left - stage.px(4)), np.full(len(y), window.left - 1)
     draw_lines(painter, np.stack((start, y, end, y), axis=1))
     painter.setPen(theme.ruler_text)
-    half = metrics.capHeight() / 2
+    half = words.cap_height / 2
     for label, middle in zip(stage.value_ticks.labels, y.tolist(), strict=True):
         if window.top + half + 1 <= middle <= window.bottom - half - 1:
-            x = window.left - stage.px(7) - metrics.horizontalAdvance(label)
-            painter.drawText(QPointF(x, middle + half), label)
+            words.draw(painter, window.left - stage.px(7) - words.width(label), middle + half, label)
     painter.setPen(hair(theme.ruler_line))
     painter.drawLine(QPointF(window.left - 0.5, window.top), QPointF(window.left - 0.5, window.bottom))
 
@@ -72,7 +71,7 @@ def draw_time_ruler(painter: QPainter, stage: Stage) -> None:
     room = window.left - stage.px(14)
     for text, top in (
         ("s", 0.0),
-        (stage.metrics(FRAME_SIZE).elidedText(unit, Qt.TextElideMode.ElideRight, room), 20.0),
+        (stage.words(FRAME_SIZE).metrics.elidedText(unit, Qt.TextElideMode.ElideRight, room), 20.0),
     ):
         box = QRectF(0, stage.px(top), window.left - stage.px(7), stage.px(18))
         painter.drawText(box, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, text)
@@ -82,7 +81,7 @@ def _draw_frames(painter: QPainter, stage: Stage) -> None:
     """Numbers of frames: each, or every second, fifth, tenth one, so that they have room at every zoom."""
     window, rate = stage.window, stage.document.clip.frame_rate
     longest = "f" + plain(max(abs(window.t0), abs(window.t1)) * rate, 0)
-    apart = max(stage.px(FRAMES_APART), stage.metrics(FRAME_SIZE).horizontalAdvance(longest) + stage.px(14))
+    apart = max(stage.px(FRAMES_APART), stage.words(FRAME_SIZE).width(longest) + stage.px(14))
     frames = frame_ticks(window.t0, window.t1, rate, window.width, apart)
     painter.setFont(stage.font(FRAME_SIZE))
     painter.setPen(stage.theme.text_dim)
@@ -94,18 +93,18 @@ def _draw_centred(
     painter: QPainter, stage: Stage, x: list[float], labels: Sequence[str], size: float, baseline: float
 ) -> None:
     """Words centred at x, without those that would be cut at an end or by the playhead's head."""
-    window, metrics = stage.window, stage.metrics(size)
+    window, words = stage.window, stage.words(size)
     gap, tip = stage.px(3), stage.px(HEAD_HALF)
     head = _head(stage)[0]
     stem = QRectF(window.x_from_time(stage.document.session.playhead) - tip, 0, 2 * tip, window.top)
-    row = QRectF(0, baseline - metrics.capHeight(), 1, metrics.capHeight())
+    top, high = baseline - words.cap_height, words.cap_height
     for label, middle in zip(labels, x, strict=True):
-        half = metrics.horizontalAdvance(label) / 2
-        row.setLeft(middle - half - gap)
-        row.setRight(middle + half + gap)
-        whole = row.left() >= window.left - 1 and row.right() <= window.right + 1
-        if whole and not row.intersects(head) and not row.intersects(stem):
-            painter.drawText(QPointF(middle - half, baseline), label)
+        half = words.width(label) / 2
+        if middle - half - gap < window.left - 1 or middle + half + gap > window.right + 1:
+            continue
+        row = QRectF(middle - half - gap, top, 2 * (half + gap), high)
+        if not row.intersects(head) and not row.intersects(stem):
+            words.draw(painter, middle - half, baseline, label)
 
 
 def _draw_band(painter: QPainter, stage: Stage) -> None:
@@ -142,7 +141,7 @@ def _head(stage: Stage) -> tuple[QRectF, str]:
     major = stage.time_ticks.major
     step = major[1] - major[0] if len(major) > 1 else 1.0
     label = plain(time, min(max(3, 2 - int(np.floor(np.log10(step)))), 9))
-    width = stage.metrics(LABEL_SIZE).horizontalAdvance(label) + stage.px(10)
+    width = stage.words(LABEL_SIZE).width(label) + stage.px(10)
     left = x - width / 2
     if window.width > width:
         left = min(max(left, window.left), window.right - width)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QFont, QFontMetricsF
 from model.channel import Channel
 from model.document import Document
 from model.keyframe import Run
-from model.sampling import Window
+from model.sampling import Window, keys_in
 from model.selection import Ids, Selection
 from widgets.chosen import Reading
 from widgets.graph import Frame
@@ -20,6 +20,7 @@ from widgets.numbers import is_angle
 from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
 from widgets.traces import Trace
+from widgets.words import Words, words_in
 
 
 @dataclass(slots=True)
@@ -34,6 +35,19 @@ class Overlay:
 
 # The size of the rulers' numbers beside the view's font.
 LABEL_SIZE: Final = 0.88
+
+
+# Keys nearer to each other than this on average leave no room for marks, or for dashes, which every key begins anew.
+CROWD: Final = 3.0
+UNDASHED: Final = 4.0
+
+
+class Manner(NamedTuple):
+    """How a channel is drawn for its number of keys in the window; when this changes, all of it looks different."""
+
+    columns: bool
+    undashed: bool
+    unmarked: bool
 
 
 class Label(NamedTuple):
@@ -61,11 +75,13 @@ class Stage:
     hint: str = ""
     # Where the handles that have been painted last are, in screen pixels.
     arms: dict[Channel, list[QRectF]] = field(default_factory=dict)
+    # How each channel was drawn, and at which revision; shared by the stages of one window.
+    manners: dict[Channel, tuple[int, Manner]] = field(default_factory=dict)
     # The few selected keys as they were read last.
     readings: dict[Channel, Reading] = field(default_factory=dict)
     # That of the value ruler.
     unit: str = field(init=False)
-    _fonts: dict[float, QFont] = field(default_factory=dict)
+    _words: dict[float, Words] = field(default_factory=dict)
     _by_channel: dict[Channel, Trace] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -88,8 +104,17 @@ class Stage:
         """The same stage seen through another window."""
         if window == stage.window:
             return stage
-        ticks = ticks_of(window, stage.metrics(LABEL_SIZE), degrees=stage.degrees)
-        return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1])
+        ticks = ticks_of(window, stage.words(LABEL_SIZE).width, degrees=stage.degrees)
+        return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], manners={})
+
+    def manner_of(self, channel: Channel) -> Manner:
+        """How the channel is to be drawn."""
+        known = self.manners.get(channel)
+        if known is None or known[0] != channel.revision:
+            count, width = keys_in(channel, self.window), self.window.width
+            manner = Manner(count > width, count > width / self.px(UNDASHED), count > width / self.px(CROWD))
+            known = self.manners[channel] = (channel.revision, manner)
+        return known[1]
 
     @property
     def degrees(self) -> bool:
@@ -107,15 +132,14 @@ class Stage:
 
     def font(self, size: float) -> QFont:
         """The view's font at *size* times its normal size, for painting in screen pixels."""
-        if size not in self._fonts:
-            font = QFont(self.base_font)
-            font.setPixelSize(max(round(pixel_size(font) * size * self.window.unit), 1))
-            self._fonts[size] = font
-        return self._fonts[size]
+        return self.words(size).font
 
-    def metrics(self, size: float) -> QFontMetricsF:
-        """How wide words are in that font."""
-        return QFontMetricsF(self.font(size))
+    def words(self, size: float) -> Words:
+        """The words of that font."""
+        words = self._words.get(size)
+        if words is None:
+            words = self._words[size] = words_in(sized(self.base_font, size, self.window.unit))
+        return words
 
     def plot(self) -> QRectF:
         """The plot area in screen pixels."""
@@ -133,9 +157,12 @@ def unit_of(traces: Sequence[Trace]) -> str:
     return units.pop() if len(units) == 1 else ""
 
 
-def pixel_size(font: QFont) -> float:
-    """The font's height in logical pixels, however it was set."""
-    return font.pixelSize() if font.pixelSize() > 0 else QFontMetricsF(font).ascent() * 1.08
+def sized(font: QFont, size: float, unit: float) -> QFont:
+    """The font at *size* times its size, however that was set, where *unit* pixels make one on the user's scale."""
+    height = font.pixelSize() if font.pixelSize() > 0 else QFontMetricsF(font).ascent() * 1.08
+    found = QFont(font)
+    found.setPixelSize(max(round(height * size * unit), 1))
+    return found
 
 
 def chosen(run: Run, ids: np.ndarray[Any, np.dtype[np.int64]]) -> np.ndarray[Any, np.dtype[np.bool_]]:

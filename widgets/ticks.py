@@ -6,7 +6,6 @@ from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtGui import QFontMetricsF
 
 from model.sampling import Window
 
@@ -36,17 +35,20 @@ class Ticks(NamedTuple):
     offset: str
 
 
-def ticks_of(window: Window, metrics: QFontMetricsF, *, degrees: bool) -> tuple[Ticks, Ticks]:
-    """(time ticks, value ticks) of a window in screen pixels; degrees are ticked where radians are stored."""
+def ticks_of(window: Window, width: Callable[[str], float], *, degrees: bool) -> tuple[Ticks, Ticks]:
+    """(time ticks, value ticks) of a window in screen pixels; degrees are ticked where radians are stored.
+
+    *width* measures words.
+    """
     room = (VALUE_WIDTH - 12.0) * window.unit
-    times = time_ticks(window.t0, window.t1, window.width, LABEL_GAP * window.unit, metrics.horizontalAdvance)
+    times = time_ticks(window.t0, window.t1, window.width, LABEL_GAP * window.unit, width)
     low, high = np.rad2deg((window.v0, window.v1)) if degrees else (window.v0, window.v1)
     values = value_ticks(
         float(low),
         float(high),
         window.height,
         VALUES_APART * window.unit,
-        lambda text: metrics.horizontalAdvance(text) <= room,
+        lambda text: width(text) <= room,
         degrees=degrees,
     )
     if degrees:

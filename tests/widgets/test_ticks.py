@@ -91,6 +91,6 @@ def test_angles_stored_in_radians_are_ticked_in_degrees(qapp: QApplication, rati
     window = Window(60 * ratio, 40 * ratio, 1540 * ratio, 860 * ratio, 0, 1, -3.2, 3.2, ratio)
     font = QFont()
     font.setPixelSize(int(11 * ratio))
-    ticks = ticks_of(window, QFontMetricsF(font), degrees=True)[1]
+    ticks = ticks_of(window, QFontMetricsF(font).horizontalAdvance, degrees=True)[1]
     assert "90°" in ticks.labels
     assert ticks.major[ticks.labels.index("90°")] == pytest.approx(np.pi / 2)

@@ -10,8 +10,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter
 
 from model.lines import TOLERANCE, Line, dashes, line_through, lines_through
-from model.sampling import Window, columns, crowded
-from widgets.painting import draw_chain, draw_lines, hair
+from model.sampling import Window, columns
+from widgets.painting import draw_boxes, draw_chain, draw_lines, hair
 from widgets.stage import Stage
 from widgets.traces import Trace
 
@@ -28,28 +28,33 @@ def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
     for soft, group in groupby(traces, lambda trace: trace.soft):
         lined = []
         for trace in group:
-            if len(trace.channel) > 1 and not _drawn_crowded(painter, window, trace, trace.color, x0, x1):
+            if len(trace.channel) > 1 and not _drawn_crowded(painter, stage, trace, trace.color, x0, x1):
                 spans = trace.channel.spans_between(t0, t1)
                 if len(spans.time0):
                     lined.append((trace, spans))
         lines = lines_through([spans for _, spans in lined], window, TOLERANCE if soft else THICKET)
         for (trace, _), line in zip(lined, lines, strict=True):
-            draw_line(painter, window, line, trace, trace.color, trace.pixels(window.unit), trace.dash)
+            pattern = _dash_of(stage, trace)
+            draw_line(painter, window, line, trace, trace.color, trace.pixels(window.unit), pattern)
 
 
 def draw_curve(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0: float, x1: float, width: int) -> None:
     """One curve in one colour."""
     window, channel = stage.window, trace.channel
-    if len(channel) > 1 and not _drawn_crowded(painter, window, trace, color, x0, x1):
+    if len(channel) > 1 and not _drawn_crowded(painter, stage, trace, color, x0, x1):
         spans = channel.spans_between(window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH))
         line = line_through(spans, window, TOLERANCE if trace.soft else THICKET)
-        draw_line(painter, window, line, trace, color, width, trace.dash)
+        draw_line(painter, window, line, trace, color, width, _dash_of(stage, trace))
 
 
-def _drawn_crowded(painter: QPainter, window: Window, trace: Trace, color: QColor, x0: float, x1: float) -> bool:
-    if not crowded(trace.channel, window):
+def _dash_of(stage: Stage, trace: Trace) -> tuple[float, ...]:
+    return () if trace.dash and stage.manner_of(trace.channel).undashed else trace.dash
+
+
+def _drawn_crowded(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0: float, x1: float) -> bool:
+    if not stage.manner_of(trace.channel).columns:
         return False
-    draw_columns(painter, window, trace, color, x0, x1, inside=True)
+    draw_columns(painter, stage.window, trace, color, x0, x1, inside=True)
     return True
 
 
@@ -96,15 +101,12 @@ def draw_columns(
         high = min(high, floor(min(max(window.x_from_time(ends.time1) - window.left, -1e9), 1e9)) + 1)
     if high <= low:
         return
-    lines = np.empty((high - low, 4))
-    lines[:, 0] = np.arange(window.left + low + 0.5, window.left + high)
-    lines[:, 2] = lines[:, 0]
-    lines[:, 1], lines[:, 3] = columns(trace.channel, window, low, high, inside=inside)
-    np.floor(lines[:, 1::2], out=lines[:, 1::2])
-    lines[:, 1::2] += 0.5
+    top, bottom = columns(trace.channel, window, low, high, inside=inside)
+    more = 1 if trace.active else 0
+    boxes = np.empty((high - low, 4), np.int32)
+    x = boxes[:, 0] = np.arange(window.left + low, window.left + high)
+    boxes[:, 1], boxes[:, 2], boxes[:, 3] = np.floor(top), x + more, np.floor(bottom) + more
     if every > 1:
         phase = floor(window.t0 * window.px_per_second) % (2 * every)
-        lines = lines[(np.arange(low, high) + phase) // every % 2 == 0]
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-    painter.setPen(hair(color))
-    draw_lines(painter, lines, 2 if trace.active else 1)
+        boxes = boxes[(np.arange(low, high) + phase) // every % 2 == 0]
+    draw_boxes(painter, color, boxes)

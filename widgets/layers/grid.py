@@ -6,7 +6,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainter
 
-from widgets.painting import draw_lines, hair
+from widgets.painting import draw_boxes, hair
 from widgets.stage import LABEL_SIZE, Stage
 from widgets.traces import Trace
 
@@ -27,19 +27,15 @@ def draw_grid(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: floa
     window, theme = stage.window, stage.theme
     for upright, ticks in ((True, stage.time_ticks), (False, stage.value_ticks)):
         for places, color in ((ticks.minor, theme.grid), (ticks.major, theme.grid_strong)):
-            painter.setPen(hair(color))
-            if upright:
-                x = np.floor(window.x_from_time(places)) + 0.5
-                low, high = np.full(len(x), window.top), np.full(len(x), window.bottom)
-                draw_lines(painter, np.stack((x, low, x, high), axis=1))
-            else:
-                y = np.floor(window.y_from_value(places)) + 0.5
-                low, high = np.full(len(y), window.left), np.full(len(y), window.right)
-                draw_lines(painter, np.stack((low, y, high, y), axis=1))
+            boxes = np.empty((len(places), 4), np.int32)
+            boxes[:] = window.left, window.top, window.right, window.bottom
+            at = np.floor(window.x_from_time(places) if upright else window.y_from_value(places))
+            boxes[:, 0 if upright else 1] = boxes[:, 2 if upright else 3] = at
+            draw_boxes(painter, color, boxes)
     if stage.value_ticks.offset:
         painter.setFont(stage.font(LABEL_SIZE))
         painter.setPen(theme.ruler_text)
-        baseline = window.top + stage.px(6) + stage.metrics(LABEL_SIZE).ascent()
+        baseline = window.top + stage.px(6) + stage.words(LABEL_SIZE).ascent
         painter.drawText(QPointF(window.left + stage.px(8), baseline), stage.value_ticks.offset)
     zero = np.floor(window.y_from_value(0.0)) + 0.5
     if window.top <= zero <= window.bottom:

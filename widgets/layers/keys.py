@@ -25,8 +25,6 @@ LIVE: Final = 3.5
 SELECTED: Final = 4.6
 # Keys nearer to each other than this in both directions are one mark.
 CELL: Final = 3.0
-# A channel with more keys in view than one in so many pixels shows only its selected ones.
-CROWD: Final = 3.0
 # So many keys are drawn one by one: arrays take longer to set up.
 FEW: Final = 16
 # Of more selected keys of a channel than this, those in the same small cell are one mark, which covers them all.
@@ -90,7 +88,7 @@ def draw_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: floa
     reach = stage.px(SELECTED * 2)
     for trace in traces:
         channel = trace.channel
-        if channel.count_between(window.t0, window.t1) > window.width / stage.px(CROWD):
+        if stage.manner_of(channel).unmarked:
             continue
         run = channel.keys_between(window.time_from_x(x0 - reach), window.time_from_x(x1 + reach), around=1)
         if not len(run):

@@ -26,7 +26,8 @@ def labels_of(stage: Stage) -> tuple[Label, ...]:
     named = traces if len(traces) <= MOST else [trace for trace in traces if trace.active]
     if not named:
         return ()
-    metrics = stage.metrics(SIZE)
+    words = stage.words(SIZE)
+    metrics = words.metrics
     high = metrics.height() + stage.px(1)
     placed = []
     for trace in named:
@@ -44,7 +45,7 @@ def labels_of(stage: Stage) -> tuple[Label, ...]:
         text = metrics.elidedText(
             arrow + (trace.channel.name or "unnamed"), Qt.TextElideMode.ElideMiddle, window.width * LONGEST
         )
-        width = metrics.horizontalAdvance(text) + stage.px(2 * PAD)
+        width = words.width(text) + stage.px(2 * PAD)
         found.append(Label(trace, text, (window.right - stage.px(EDGE) - width, top, width, high)))
     return tuple(found)
 
@@ -70,7 +71,7 @@ def draw_labels(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
         return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setFont(stage.font(SIZE))
-    descent = stage.metrics(SIZE).descent()
+    descent = stage.words(SIZE).metrics.descent()
     veil = QColor(stage.theme.background)
     veil.setAlphaF(0.72)
     for label in shown:
