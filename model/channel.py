@@ -150,6 +150,17 @@ class Channel(Curve):
 
     def keys_of(self, ids: Iterable[int]) -> Run:
         """Exactly the keys *ids*, in time order; KeyGoneError if one is gone."""
+        start = self._rows.start
+        if start is None or start.left or not isinstance(ids, np.ndarray) or ids.flags.writeable:
+            return self._keys_of(ids)
+        # Each preview of a gesture begins with the same question.
+        run = start.run_of(ids)
+        if run is None:
+            run = self._keys_of(ids)
+            start.remember(ids, run)
+        return run
+
+    def _keys_of(self, ids: Iterable[int]) -> Run:
         ranks = self._ranks(ids)
         if not len(ranks):
             return self._run(0, 0)
@@ -214,7 +225,7 @@ class Channel(Curve):
         rank1 = rank0 + len(before)
         old, old_size = splicing.outer(rows, rank0, rank1), rows.size
         minus_zero = splicing.check_run(after, old.time_before, old.time_after)
-        same_ids = len(before) == len(after) and bool((before["id"] == after["id"]).all())
+        same_ids = len(before) == len(after) and splicing.have_same_ids(before, after)
         if not same_ids:
             ids, self._next_id = splicing.ids_for(rows, before, after, self._next_id)
             if ids is not None:

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 type Grids = tuple[Floats, NDArray[np.uint8], NDArray[np.int32]]
 
 
+# So many selections can a gesture work on without their keys being read again at each preview.
+MOST_RUNS = 2
+
+
 class Part(NamedTuple):
     """Copies of neighbouring rows, from row0 up to before row1."""
 
@@ -39,7 +43,7 @@ class Start:
     """
 
     def __init__(self, rows: "Rows") -> None:
-        self.runs: dict[int, tuple[NDArray[np.int64], Run]] = {}  # runs of the start by the ids asked for
+        self._runs: list[tuple[NDArray[np.int64], Run]] = []  # keys of the start, and the ids they were asked for by
         self._first, self._size = rows.first.copy(), rows.size
         self._part_of = [-1] * rows.rows  # by row: which part holds it; -1: none
         self._parts: list[Part] = []
@@ -52,6 +56,21 @@ class Start:
     def left(self) -> bool:
         """Whether the rows may differ from the start now."""
         return bool(self._written) or self._whole is not None
+
+    def run_of(self, ids: NDArray[np.int64]) -> Run | None:
+        """The keys of the start that were asked for by these very *ids*."""
+        for known, run in self._runs:
+            if known is ids:
+                return run
+        return None
+
+    def remember(self, ids: NDArray[np.int64], run: Run) -> None:
+        """Have *run* at hand when the same read-only *ids* are asked for again."""
+        self._runs = [*self._runs[1 - MOST_RUNS :], (ids, run)]
+
+    def holds(self, run: Run) -> bool:
+        """Whether *run* is known to be keys of the start."""
+        return any(known is run for _, known in self._runs)
 
     def keep(self, rows: "Rows", row0: int, row1: int, *, keys_move: bool) -> None:
         """Make sure of the rows from row0 up to before row1; *keys_move*: not only their numbers will change."""

@@ -32,7 +32,7 @@ FILLED = 384
 # The share of its slots that a group of rows may fill when it is shared out; a fuller channel gets new rows.
 CROWDED = 0.85
 # Rows handled at a time, so that their numbers stay in the processor's cache from one column to the next.
-AT_A_TIME = 16
+AT_A_TIME = 32
 # Where all keys of at least so many rows are replaced in a gesture, others are written rather than these copied.
 MANY_ROWS = 64
 
@@ -162,24 +162,31 @@ class Rows:
         if place + rank1 - rank0 <= held:
             return [Block(rank0, row, 1, place, rank1 - rank0, held)]
         blocks: list[Block] = []
-        rank, held_before, first_row = rank0, 0, row
-        for end in self.first[row + 1 : self.place(rank1 - 1)[0] + 2].tolist():
-            held = end - rank + place
-            width = min(end, rank1) - rank
-            if width != held or held != held_before or row - first_row == AT_A_TIME:
-                blocks.append(Block(rank, row, 1, place, width, held))
-                held_before, first_row = (held, row) if width == held else (0, row)
-            else:
-                last = blocks[-1]
-                blocks[-1] = Block(last.rank, first_row, row - first_row + 1, 0, held, held)
-            rank, place, row = end, 0, row + 1
+        if place:
+            blocks.append(Block(rank0, row, 1, place, held - place, held))
+            rank0, row = rank0 + held - place, row + 1
+        last, end = self.place(rank1 - 1)
+        whole = last + 1 if end + 1 == self.held(last) else last
+        firsts = self.first[row : whole + 1].tolist()
+        begin, held = 0, firsts[1] - firsts[0] if whole > row else 0
+        for at in range(1, len(firsts)):
+            if at + 1 == len(firsts) or firsts[at + 1] - firsts[at] != held or at - begin == AT_A_TIME:
+                blocks.append(Block(firsts[begin], row + begin, at - begin, 0, held, held))
+                begin, held = at, firsts[min(at + 1, len(firsts) - 1)] - firsts[at]
+        if whole == last:
+            blocks.append(Block(firsts[-1], last, 1, 0, end + 1, self.held(last)))
         return blocks
+
+    def cuts(self, rank0: int, rank1: int) -> list[int]:
+        """*rank0*, *rank1* (later), and between them the first ranks of rows that are AT_A_TIME rows apart."""
+        row0, row1 = self.place(rank0)[0], self.place(rank1 - 1)[0]
+        return [rank0, *self.first[row0 + AT_A_TIME : row1 + 1 : AT_A_TIME].tolist(), rank1]
 
     # --- reading and storing
 
-    def columns(self, rank0: int, rank1: int, *, stop: int = D_TIME + 1) -> Floats:
-        """Copies of the first *stop* columns of the keys of these ranks: (stop, n)."""
-        found = np.empty((stop, rank1 - rank0))
+    def columns(self, rank0: int, rank1: int, *, stop: int = D_TIME + 1, into: Floats | None = None) -> Floats:
+        """Copies of the first *stop* columns of the keys of these ranks: (stop, n), *into* where there is room."""
+        found = np.empty((stop, rank1 - rank0)) if into is None else into
         for rank, row, rows, place, count, _ in self.blocks(rank0, rank1):
             part = found[:, rank - rank0 : rank - rank0 + rows * count].reshape(stop, rows, count)
             part[:] = self.number_grid[:stop, row : row + rows, place : place + count]
@@ -227,7 +234,11 @@ class Rows:
             if ids_too:
                 self.id_grid[at] = part["id"]
                 self._remember(self.id_grid[at], row)
-            self._repeat_last(row, row + rows, place + count, held)
+            if place + count == held < self.width:
+                # The columns that follow from rules are worked out next, and repeated as they are written.
+                written = (self.number_grid[:SLOPE_IN], self.mark_grid, self.id_grid[None])
+                for grid in written if ids_too else written[:2]:
+                    grid[:, row : row + rows, held:] = grid[:, row : row + rows, held - 1 : held]
             if place == 0:
                 self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
 
@@ -235,14 +246,6 @@ class Rows:
         """The rows from row0 up to before row1 are about to be written: their numbers, or also which keys they hold."""
         if self.start is not None:
             self.start.keep(self, row0, row1, keys_move=keys_move)
-
-    def _repeat_last(self, row0: int, row1: int, written: int, held: int) -> None:
-        """Fill the spare slots of rows that hold *held* keys, the first *written* of which may be new."""
-        if written < held or held == self.width:
-            return
-        for grid in (self.number_grid, self.mark_grid, self.id_grid[None]):
-            part = grid[:, row0:row1]
-            part[:, :, held:] = part[:, :, held - 1 : held]
 
     def _remember(self, ids: NDArray[np.int32], row: int) -> None:
         """Note that these keys, one line for each row, are in rows *row* and following."""

@@ -28,7 +28,8 @@ def _increasing(ids: Ids) -> bool:
 def _united(ids: Ids, others: Ids) -> Ids:
     """The ids of one or both, increasing."""
     column = np.sort(np.concatenate([ids, others]))
-    return column[np.append(True, column[1:] != column[:-1])] if len(column) else column
+    united: Ids = column[np.append(True, column[1:] != column[:-1])] if len(column) else column
+    return united
 
 
 def _in_one(ids: Ids, others: Ids) -> Ids:
@@ -36,7 +37,8 @@ def _in_one(ids: Ids, others: Ids) -> Ids:
     column = np.sort(np.concatenate([ids, others]))
     same = np.append(column[1:] == column[:-1], False)
     same[1:] |= same[:-1].copy()
-    return column[~same]
+    rest: Ids = column[~same]
+    return rest
 
 
 def ids_without(ids: Ids, others: Ids) -> Ids:
@@ -51,7 +53,8 @@ def ids_without(ids: Ids, others: Ids) -> Ids:
     ids, others = np.sort(ids), np.sort(others)
     if not len(others) or np.array_equal(ids, others):
         return ids[len(others) :]
-    return ids[others.take(others.searchsorted(ids), mode="clip") != ids]
+    rest: Ids = ids[others.take(others.searchsorted(ids), mode="clip") != ids]
+    return rest
 
 
 def _sorted_ids(ids: ArrayLike) -> Ids:

@@ -1,5 +1,6 @@
 """What a splice must satisfy, what it rebuilds (slopes by rule, coefficients), and how far its effect reaches."""
 
+from itertools import pairwise
 from math import copysign, inf, isfinite
 from typing import NamedTuple
 
@@ -8,7 +9,8 @@ from numpy.typing import NDArray
 
 from model import hermite
 from model.extrapolation import EXTRAPOLATIONS, Extrapolation
-from model.keyframe import KeyGoneError, Run, TangentRule
+from model.hermite import Floats
+from model.keyframe import KEY_DTYPE, KeyGoneError, Run, TangentRule
 from model.rows import D_TIME, NUMBER_FIELDS, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, C, Rows
 from model.tangents import TANGENT_RULES, slope_pair, slopes_of
 
@@ -23,6 +25,13 @@ MANY = 1000
 
 _IN_RULES = np.array([rule in TANGENT_RULES and rule != TangentRule.STEP for rule in range(256)])
 _OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
+# Both rules of a key as one number, of which each of the 65536 is known or not.
+assert KEY_DTYPE.fields is not None
+_PAIR_OF_RULES = np.dtype(
+    {"names": ["rules"], "formats": ["u2"], "offsets": [KEY_DTYPE.fields["rule_in"][1]], "itemsize": KEY_DTYPE.itemsize}
+)
+_BYTES = np.arange(65536, dtype=np.uint16).view(np.uint8).reshape(-1, 2)
+_KNOWN_PAIRS = _IN_RULES[_BYTES[:, 0]] & _OUT_RULES[_BYTES[:, 1]]
 
 
 class Outer(NamedTuple):
@@ -51,9 +60,25 @@ def rank_of_run(rows: Rows, before: Run, after: Run) -> int:
     except KeyGoneError as error:
         raise ValueError(f"the run to replace is not in the channel: {error}") from None
     end = rank + len(before)
-    if end > rows.size or (len(before) > 1 and not rows.same_ids(rank, before["id"])):
-        raise ValueError("the run to replace is not what the channel holds now")
-    return rank
+    if end <= rows.size and (len(before) == 1 or _stand_at(rows, rank, before)):
+        return rank
+    raise ValueError("the run to replace is not what the channel holds now")
+
+
+def _stand_at(rows: Rows, rank: int, run: Run) -> bool:
+    """Whether the keys from *rank* on are those of *run*."""
+    start = rows.start
+    if start is not None and not start.left and start.holds(run):
+        return rows.rank_of(int(run["id"][-1])) == rank + len(run) - 1
+    return rows.same_ids(rank, run["id"])
+
+
+def have_same_ids(run: Run, other: Run) -> bool:
+    """Whether two runs of equal length hold the same keys in the same order."""
+    ids, others = run["id"], other["id"]
+    if len(run) == 1:
+        return bool(ids[0] == others[0])
+    return all((ids[at : at + AT_A_TIME] == others[at : at + AT_A_TIME]).all() for at in range(0, len(run), AT_A_TIME))
 
 
 def check_run(run: Run, time_before: float, time_after: float) -> bool:
@@ -65,23 +90,35 @@ def check_run(run: Run, time_before: float, time_after: float) -> bool:
         return _check_few(run, time_before, time_after)
     minus_zero = False
     last = time_before
-    for at in range(0, len(run), AT_A_TIME):
-        part = run[at : at + AT_A_TIME]
-        numbers = np.stack([part[field] for field, _ in NUMBER_FIELDS])
-        rules_fine = _IN_RULES[part["rule_in"]] & _OUT_RULES[part["rule_out"]]
-        if not (np.isfinite(numbers).all() and rules_fine.all()):
-            _refuse_numbers_or_rules(part, at)
-        times, values = numbers[TIME], numbers[VALUE]
-        if times[0] <= last or (times[1:] <= times[:-1]).any():
-            before = np.append(last, times[:-1])
-            bad = int((times <= before).argmax())
-            what = f"key {at + bad}: time {float(times[bad])!r} is not after {float(before[bad])!r}"
-            raise ValueError(f"{what}, the time of the key before")
-        last = float(times[-1])
-        if not values.all():
-            minus_zero |= bool(np.signbit(values[values == 0.0]).any())
+    numbers = np.empty((4, min(len(run), AT_A_TIME)))
+    with np.errstate(all="ignore"):
+        for at in range(0, len(run), AT_A_TIME):
+            part = run[at : at + AT_A_TIME]
+            columns = numbers[:, : len(part)]
+            for field, column in NUMBER_FIELDS:
+                columns[column] = part[field]
+            # A sum is finite only if all its terms are; one that is not may still be of finite terms.
+            if not isfinite(columns.sum()) or not _known_rules(part):
+                _refuse_numbers_or_rules(part, at)
+            times, values = columns[TIME], columns[VALUE]
+            if times[0] <= last or not (times[1:] > times[:-1]).all():
+                before = np.append(last, times[:-1])
+                bad = int((times <= before).argmax())
+                what = f"key {at + bad}: time {float(times[bad])!r} is not after {float(before[bad])!r}"
+                raise ValueError(f"{what}, the time of the key before")
+            last = float(times[-1])
+            if not values.all():
+                minus_zero |= bool(np.signbit(values[values == 0.0]).any())
     _check_last(run, last, time_after)
     return minus_zero
+
+
+def _known_rules(part: Run) -> bool:
+    rules = part.view(_PAIR_OF_RULES)["rules"]
+    first = rules[0]
+    if (rules == first).all():
+        return bool(_KNOWN_PAIRS[first])
+    return bool(_KNOWN_PAIRS[rules].all())
 
 
 def _check_few(run: Run, last: float, time_after: float) -> bool:
@@ -173,8 +210,7 @@ def rebuild(rows: Rows, rank0: int, rank1: int) -> None:
     if slopes1 - spans0 <= 2 * FEW:
         _rebuild_few(rows, spans0, slopes0, slopes1)
         return
-    for begin in range(spans0, slopes1, AT_A_TIME):
-        _rebuild_many(rows, begin, min(begin + AT_A_TIME, slopes1))
+    _rebuild_many(rows, spans0, slopes1)
 
 
 def _rebuild_few(rows: Rows, spans0: int, slopes0: int, slopes1: int) -> None:
@@ -202,22 +238,30 @@ def _rebuild_few(rows: Rows, spans0: int, slopes0: int, slopes1: int) -> None:
 
 
 def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
-    """Slopes and coefficients of the keys rank0 to rank1; slopes worked out twice come out the same."""
+    """Slopes and coefficients of the keys rank0 to rank1, some rows at a time; slopes worked out twice are the same."""
+    cuts = rows.cuts(rank0, rank1)
+    most = max(end - begin for begin, end in pairwise(cuts))
+    # Memory that is asked for anew for each part would cost as much as the work on it.
+    keys, out = np.empty((4, most + 3)), np.empty((6, most))
+    with np.errstate(all="ignore"):
+        for begin, end in pairwise(cuts):
+            _rebuild_part(rows, begin, end, keys, out[:, : end - begin])
+
+
+def _rebuild_part(rows: Rows, rank0: int, rank1: int, keys: Floats, out: Floats) -> None:
     # One key before, one after for the last span, and that key's other neighbour for its slope.
     left, right = max(rank0 - 1, 0), min(rank1 + 2, rows.size)
-    n = rows.columns(left, right, stop=SLOPE_OUT + 1)
+    n = rows.columns(left, right, stop=SLOPE_OUT + 1, into=keys[:, : right - left])
     rule_in, rule_out = rows.rules(left, right)
     slope_in, slope_out = slopes_of(n[TIME], n[VALUE], n[SLOPE_IN], n[SLOPE_OUT], rule_in, rule_out)
     here, spans = slice(rank0 - left, rank1 - left), slice(rank0 - left, min(rank1, rows.size - 1) - left)
     after = slice(spans.start + 1, spans.stop + 1)
-    out = np.empty((6, rank1 - rank0))
     out[0], out[1] = slope_in[here], slope_out[here]
     count = spans.stop - spans.start
-    with np.errstate(all="ignore"):
-        d_time = np.subtract(n[TIME, after], n[TIME, spans], out=out[5, :count])
-        out[2, :count], out[3, :count], out[4, :count] = hermite.coefficients(
-            d_time, n[VALUE, spans], n[VALUE, after], slope_out[spans], slope_in[after]
-        )
+    d_time = np.subtract(n[TIME, after], n[TIME, spans], out=out[5, :count])
+    out[2, :count], out[3, :count], out[4, :count] = hermite.coefficients(
+        d_time, n[VALUE, spans], n[VALUE, after], slope_out[spans], slope_in[after]
+    )
     held = rule_out[here] == TangentRule.STEP
     if held.any():
         out[2:5, held] = 0.0

@@ -1,6 +1,7 @@
 """Verbs that change where keys are: move, nudge, scale, set a field."""
 
 from collections.abc import Callable, Iterator
+from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +16,8 @@ from model.selection import Selection
 
 # Seconds that a key which must not pass its neighbour stays away from it.
 TICK = 1e-9
+# Numbers added to at a time: they stay in the processor's cache.
+AT_A_TIME = 8192
 # A time factor nearer to 0 would put all keys at one time.
 SMALLEST_FACTOR = 1e-6
 
@@ -29,13 +32,25 @@ def selected_keys(selection: Selection) -> Iterator[tuple[Channel, Run]]:
 def require_finite(**numbers: float) -> None:
     """ValueError that names the first number that is not finite."""
     for name, number in numbers.items():
-        if not np.isfinite(number):
+        if not isfinite(number):
             raise ValueError(f"{name} is {number}; it must be finite")
 
 
 def clamped(numbers: Floats) -> Floats:
     """*numbers* with what no double can hold at the end of its range."""
     return numbers.clip(-LARGEST, LARGEST)
+
+
+def add_to(column: Floats, number: float) -> None:
+    """Add *number* to *column* in place; sums that no double can hold stop at the end of its range."""
+    with np.errstate(over="ignore"):
+        for at in range(0, len(column), AT_A_TIME):
+            part = column[at : at + AT_A_TIME]
+            sums = part + number
+            if number > 0.0:
+                part[:] = np.minimum(sums, LARGEST, out=sums)
+            else:
+                part[:] = np.maximum(sums, -LARGEST, out=sums)
 
 
 def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reorder: bool = True) -> list[Change]:
@@ -55,14 +70,17 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
     for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
         rows = keys.copy()
         slack = 0.0
-        with np.errstate(over="ignore"):
-            if d_value:
-                rows["value"] = clamped(keys["value"] + d_value)
-            if d_time:
-                times = clamped(keys["time"] + d_time)
-                rows["time"] = strictly_increasing(times) if limit is None else _inside(times, limit, keys["time"])
-            if d_time and reorder:
-                slack = rounding_slack(keys, rows)
+        if d_value:
+            add_to(rows["value"], d_value)
+        if d_time:
+            add_to(rows["time"], d_time)
+            times = rows["time"]
+            if limit is not None:
+                rows["time"] = _inside(times, limit, keys["time"])
+            elif not (times[1:] > times[:-1]).all():
+                rows["time"] = strictly_increasing(times.copy())
+        if d_time and reorder:
+            slack = rounding_slack(keys, rows)
         changes += placed(channel, keys, rows, slack=slack)
     return changes
 
