@@ -236,6 +236,7 @@ def _add_convert(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("out", metavar="OUT", help="where to write; its extension tells the format")
     sub.add_argument("--to", dest="format", choices=list(FORMATS), help="the format, whatever the extension")
     sub.add_argument("--lossy", action="store_true", help="write even if the format cannot hold everything")
+    sub.add_argument("--force", action="store_true", help="replace OUT if it exists")
 
 
 def _convert(arguments: argparse.Namespace) -> None:
@@ -245,6 +246,8 @@ def _convert(arguments: argparse.Namespace) -> None:
     if format_name is None:
         known = ", ".join(row.extension for row in FORMATS.values())
         raise CommandError(f"{arguments.out}: the extension tells no format ({known} do); give --to")
+    if os.path.isfile(arguments.out) and not arguments.force:
+        raise CommandError(f"{arguments.out}: not written, since there is a file of that name (--force replaces it)")
     clip = read_clip(arguments.file, skeleton=arguments.skel)
     lost = losses(clip, format_name, arguments.out)
     if lost and not arguments.lossy:

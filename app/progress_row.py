@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
 from app.jobs import Jobs
 
@@ -25,13 +25,16 @@ class ProgressRow(QWidget):
         self.bar.setTextVisible(False)
         self.bar.setFixedSize(BAR_WIDTH, BAR_HEIGHT)
         self.bar.setAccessibleName("Progress")
-        self.cancel = QPushButton("Cancel")
+        self.cancel = QToolButton()
+        self.cancel.setText("Cancel")
+        self.cancel.setFixedHeight(self.text.sizeHint().height())  # as high as the words, so that nothing moves
         self.cancel.setToolTip("Stop it and leave everything as it was  (Esc)")
         self.cancel.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # with the focus it would take Space from playing
         self.cancel.clicked.connect(self.stop)
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), window)
         self._escape.activated.connect(self.stop)
         self._escape.setEnabled(False)
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Preferred)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(10)

@@ -122,6 +122,31 @@ def test_convert_goes_there_and_back_without_loss(hermite: Hermite, walk: Path, 
     assert (tmp_path / "copy").read_bytes() == walk.read_bytes()
 
 
+def test_convert_replaces_a_file_only_when_told_to(hermite: Hermite, walk: Path, tmp_path: Path) -> None:
+    out = tmp_path / "mine.hermite"
+    out.write_text("mine")
+    code, _, error = hermite("convert", walk, out)
+    assert (code, error) == (2, f"{out}: not written, since there is a file of that name (--force replaces it)\n")
+    assert out.read_text() == "mine"
+    assert hermite("convert", walk, out, "--force") == (0, "", "")
+    assert out.read_bytes() == walk.read_bytes()
+
+
+def test_convert_that_is_interrupted_leaves_what_was_there(
+    hermite: Hermite, walk: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def press_control_c(_handle: int) -> None:
+        raise KeyboardInterrupt
+
+    out = tmp_path / "mine.hermite"
+    out.write_text("mine")
+    monkeypatch.setattr(os, "fsync", press_control_c)
+    before = sorted(tmp_path.iterdir())
+    assert hermite("convert", walk, out, "--force") == (2, "", "stopped\n")
+    assert sorted(tmp_path.iterdir()) == before
+    assert out.read_text() == "mine"
+
+
 def test_a_skeleton_names_the_channels(hermite: Hermite, tmp_path: Path) -> None:
     clip = tmp_path / "walk.anim"
     clip.write_bytes(write_bytes(Clip([Channel(f"channel {i}") for i in range(6)], end=1), "anim"))

@@ -1,0 +1,102 @@
+"""With a million keys the window never stands still for more than a tenth of a second."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt, QTimer
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+import app.files
+from app.main_window import MainWindow
+from app.questions import Answer
+from model.channel import Channel
+from model.clip import Clip
+from model.formats import write_bytes
+from model.keyframe import make_run
+from model.selection import Selection
+from tests.app.conftest import MakeWindow, answers_of, small_clip
+from tests.app.heart import Heart
+
+KEYS = 1_000_000
+MOST_SECONDS = 0.1
+
+
+@pytest.fixture(scope="module")
+def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("large") / "large.hermite"
+    values = np.round(np.random.default_rng(5).normal(size=KEYS).cumsum(), 4)
+    clip = Clip([Channel("root.tx", make_run(np.arange(KEYS) / 24.0, values))], end=KEYS / 24.0)
+    path.write_bytes(write_bytes(clip, "hermite"))
+    return path
+
+
+def held_up(work: Callable[[], object], settle: int = 300) -> float:
+    """The longest that the window stood still while *work* was done and its effects were painted."""
+    with Heart() as heart:
+        QTest.qWait(20)
+        work()
+        QTest.qWait(settle)
+    return heart.longest
+
+
+def edit_some(window: MainWindow) -> None:
+    channel = window.document.clip.channels[0]
+    window.session.selection = Selection.of({channel: channel.keys_between(100.0, 104.0)["id"]})
+    window.actions_by_id["key.up"].run()
+
+
+def pan_and_zoom(window: MainWindow) -> None:
+    for step in range(10):
+        window.view.pan_pixels(40.0, 3.0)
+        QTest.qWait(10)
+        window.view.zoom(1.3 if step % 2 else 0.8, 1.0, QPointF(400.0, 300.0))
+        QTest.qWait(10)
+
+
+def cancel_half_way(window: MainWindow, path: Path) -> None:
+    watch = QTimer()
+    watch.timeout.connect(lambda: window.jobs.job and window.jobs.job.share > 0.5 and press_escape(window))
+    watch.start(5)
+    assert not window.open_file(str(path))
+
+
+def press_escape(window: MainWindow) -> None:
+    QTest.keyClick(window.view, Qt.Key.Key_Escape)
+
+
+def test_nothing_that_files_need_stops_the_window(make_window: MakeWindow, large: Path, tmp_path: Path) -> None:
+    window = make_window(small_clip())
+    window.activateWindow()
+    QApplication.processEvents()
+    answers, actions = answers_of(window).answers, window.actions_by_id
+    answers |= {"path_to_save": (str(tmp_path / "out.anim"), "anim"), "lossy_save": Answer.ANYWAY}
+    mine = tmp_path / "mine.hermite"
+    mine.write_bytes(large.read_bytes())
+    pauses = {"opening": held_up(lambda: window.open_file(str(mine)))}
+    assert window.document.clip.key_count == KEYS
+    pauses["playing"] = held_up(actions["play.toggle"].run)
+    actions["play.toggle"].run()
+    pauses["panning and zooming"] = held_up(lambda: pan_and_zoom(window))
+    pauses["editing"] = held_up(lambda: edit_some(window))
+    pauses["undoing"] = held_up(window.undo_stack.undo)
+    pauses["doing it again"] = held_up(window.undo_stack.redo)
+    pauses["saving"] = held_up(lambda: window.save())
+    assert not window.isWindowModified()
+    pauses["saving in another format"] = held_up(lambda: window.save_as())
+    assert (tmp_path / "out.anim").stat().st_size > KEYS
+    answers["save_changes"] = Answer.DISCARD
+    clip = window.document.clip
+    pauses["cancelling half-way"] = held_up(lambda: cancel_half_way(window, mine))
+    assert window.document.clip is clip
+    assert {work: pause for work, pause in pauses.items() if pause > MOST_SECONDS} == {}
+
+
+def test_a_window_that_does_stop_is_noticed(
+    make_window: MakeWindow, large: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window = make_window(small_clip())
+    monkeypatch.setattr(app.files, "FEW_BYTES", 1 << 40)
+    assert held_up(lambda: window.open_file(str(large))) > MOST_SECONDS
