@@ -1,6 +1,6 @@
 """Channel: a doubly linked list of keys whose only change is the splice of a run of neighbours."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import inf
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, Run
-from model.rewinding import Start
+from model.rewinding import Question, Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
 
 _NUMBERS = dict(NUMBER_FIELDS)
@@ -150,15 +150,9 @@ class Channel(Curve):
 
     def keys_of(self, ids: Iterable[int]) -> Run:
         """Exactly the keys *ids*, in time order; KeyGoneError if one is gone."""
-        start = self._rows.start
-        if start is None or start.left or not isinstance(ids, np.ndarray) or ids.flags.writeable:
+        if not isinstance(ids, np.ndarray) or ids.flags.writeable:
             return self._keys_of(ids)
-        # Each preview of a gesture begins with the same question.
-        run = start.run_of(ids)
-        if run is None:
-            run = self._keys_of(ids)
-            start.remember(ids, run)
-        return run
+        return self._again(ids, self._keys_of, ids)
 
     def _keys_of(self, ids: Iterable[int]) -> Run:
         ranks = self._ranks(ids)
@@ -171,11 +165,22 @@ class Channel(Curve):
         chosen.flags.writeable = False
         return chosen
 
+    def _again[*Args](self, question: Question, read: Callable[[*Args], Run], *args: *Args) -> Run:
+        """What *read* gives; each preview of a gesture begins with the same questions about its start."""
+        start = self._rows.start
+        if start is None or start.left:
+            return read(*args)
+        run = start.run_of(question)
+        if run is None:
+            run = read(*args)
+            start.remember(question, run)
+        return run
+
     def keys_between(self, t0: float, t1: float, *, around: int = 0) -> Run:
         """The keys with t0 <= time <= t1, and *around* neighbours on each side."""
         rank0, rank1 = self._rows.rank_at(t0, after=False), self._rows.rank_at(t1)
         rank0, rank1 = max(0, rank0 - around), min(len(self), max(rank0, rank1) + around)
-        return self._run(rank0, rank1)
+        return self._again((rank0, rank1), self._run, rank0, rank1)
 
     def count_between(self, t0: float, t1: float) -> int:
         """How many keys have t0 <= time <= t1."""

@@ -35,29 +35,36 @@ def placed(channel: Channel, removed: Run, rows: Run, *, slack: float = 0.0) -> 
         return [Splice(channel, removed, rows)]  # nothing else lies between their old and new places
     places = np.sort(np.concatenate([removed["time"], rows["time"]]))
     parts = _in_possible_order(_clusters(channel, places, slack), removed, rows)
-    splices = (_splice(channel, t0, t1, removed, rows, slack) for t0, t1 in parts)
+    if len(parts) == 1:
+        return [_splice(channel, *parts[0], removed, rows, slack)]
+    splices = (_splice(channel, t0, t1, _between(removed, t0, t1), _between(rows, t0, t1), slack) for t0, t1 in parts)
     return [splice for splice in splices if len(splice.before) or len(splice.after)]
 
 
-def _splice(channel: Channel, t0: float, t1: float, removed: Run, rows: Run, slack: float) -> Splice:
-    """What happens to the keys from *t0* to *t1*."""
+def _splice(channel: Channel, t0: float, t1: float, gone: Run, come: Run, slack: float) -> Splice:
+    """*gone* give way to *come*, all of which lie between *t0* and *t1*."""
     before = channel.keys_between(t0 - slack, t1 + slack)
-    gone, come = _between(removed, t0, t1), _between(rows, t0, t1)
     if len(gone) == len(before):
         return Splice(channel, before, come)
     stays = np.ones(len(before), np.bool_)
     stays[before["time"].searchsorted(gone["time"])] = False
     kept = before[stays]
-    come, covered = _landed(come, kept, slack)
-    if covered.any():
-        kept = kept[~covered]
+    after = _merged(kept, come)
+    times = after["time"]
+    if (times[1:] - times[:-1]).min(initial=np.inf) <= slack:
+        come, covered = _landed(come, kept, slack)
+        after = _merged(kept[~covered], come)
+    return Splice(channel, before, after)
+
+
+def _merged(kept: Run, come: Run) -> Run:
+    """The keys of both in the order of their times."""
     # Joining records by numpy's own means compares their fields one by one, each time.
     after = np.empty(len(kept) + len(come), KEY_DTYPE)
-    places = kept["time"].searchsorted(come["time"]) + np.arange(len(come))
     new = np.zeros(len(after), np.bool_)
-    new[places] = True
+    new[kept["time"].searchsorted(come["time"]) + np.arange(len(come))] = True
     after[new], after[~new] = come, kept
-    return Splice(channel, before, after)
+    return after
 
 
 def _landed(rows: Run, kept: Run, slack: float) -> tuple[Run, NDArray[np.bool_]]:

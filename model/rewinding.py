@@ -14,8 +14,12 @@ if TYPE_CHECKING:
 type Grids = tuple[Floats, NDArray[np.uint8], NDArray[np.int32]]
 
 
-# So many selections can a gesture work on without their keys being read again at each preview.
-MOST_RUNS = 2
+# Each preview asks for the selected keys and for those around them.
+MOST_RUNS = 3
+
+
+# Keys by their ids, or by the first rank and the one behind the last.
+type Question = NDArray[np.int64] | tuple[int, int]
 
 
 class Part(NamedTuple):
@@ -43,7 +47,7 @@ class Start:
     """
 
     def __init__(self, rows: "Rows") -> None:
-        self._runs: list[tuple[NDArray[np.int64], Run]] = []  # keys of the start, and the ids they were asked for by
+        self._runs: list[tuple[Question, Run]] = []  # keys of the start, and how they were asked for
         self._first, self._size = rows.first.copy(), rows.size
         self._part_of = [-1] * rows.rows  # by row: which part holds it; -1: none
         self._parts: list[Part] = []
@@ -57,16 +61,16 @@ class Start:
         """Whether the rows may differ from the start now."""
         return bool(self._written) or self._whole is not None
 
-    def run_of(self, ids: NDArray[np.int64]) -> Run | None:
-        """The keys of the start that were asked for by these very *ids*."""
+    def run_of(self, question: Question) -> Run | None:
+        """The keys of the start that were asked for like this: by the very same ids, or by equal ranks."""
         for known, run in self._runs:
-            if known is ids:
+            if known is question or (isinstance(known, tuple) and isinstance(question, tuple) and known == question):
                 return run
         return None
 
-    def remember(self, ids: NDArray[np.int64], run: Run) -> None:
-        """Have *run* at hand when the same read-only *ids* are asked for again."""
-        self._runs = [*self._runs[1 - MOST_RUNS :], (ids, run)]
+    def remember(self, question: Question, run: Run) -> None:
+        """Have *run* at hand when it is asked for again; ids must be read-only."""
+        self._runs = [*self._runs[1 - MOST_RUNS :], (question, run)]
 
     def holds(self, run: Run) -> bool:
         """Whether *run* is known to be keys of the start."""
@@ -142,6 +146,7 @@ class Start:
 
     def _remember_start(self, rows: "Rows", parts: list[Part]) -> None:
         rows.first[:], rows.size = self._first, self._size
+        rows.blocks_known.clear()
         for part in parts:
             rows.id_grid[part.row0 : part.row1] = part.ids
         stretches = [(part.row0, part.row1) for part in parts] if self._whole is None else [(0, rows.rows)]

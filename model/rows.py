@@ -33,6 +33,8 @@ FILLED = 384
 CROWDED = 0.85
 # Rows handled at a time, so that their numbers stay in the processor's cache from one column to the next.
 AT_A_TIME = 32
+# As many steps of a drag ask for, which ask for the same ones again and again.
+MOST_KNOWN = 32
 # Where all keys of at least so many rows are replaced in a gesture, others are written rather than these copied.
 MANY_ROWS = 64
 
@@ -83,6 +85,7 @@ class Rows:
         self.marks = self.mark_grid.reshape(3, -1)
         self.ids = self.id_grid.reshape(-1)
         self.times = self.numbers[TIME]
+        self.blocks_known: dict[tuple[int, int], list[Block]] = {}  # follow from `first`: drop them when it changes
         self.first = first  # rank of each row's first key, and at the end the number of keys
         self.starts = starts  # time of each row's first key
         self.dirty = set(range(self.rows))  # rows whose coefficients were written since somebody cleared this set
@@ -155,6 +158,14 @@ class Rows:
 
     def blocks(self, rank0: int, rank1: int) -> list[Block]:
         """The keys of these ranks as blocks of at most AT_A_TIME rows."""
+        known = self.blocks_known.get((rank0, rank1))
+        if known is None:
+            if len(self.blocks_known) >= MOST_KNOWN:
+                self.blocks_known.clear()
+            known = self.blocks_known[rank0, rank1] = self._blocks(rank0, rank1)
+        return known
+
+    def _blocks(self, rank0: int, rank1: int) -> list[Block]:
         if rank0 >= rank1:
             return []
         row, place = self.place(rank0)
@@ -319,6 +330,7 @@ class Rows:
             if new_held < held and (tail_stays or come == 0):
                 line[:, new_held : held if tail_stays else self.width] = line[:, new_held - 1 : new_held]
         self.first[row + 1 :] += come - gone
+        self.blocks_known.clear()
         self.size += come - gone
         if place == 0 and come == 0:
             self.starts[row] = float(self.number_grid[TIME, row, 0])
@@ -355,6 +367,7 @@ class Rows:
             self._make(new_size)
             row1 = self.rows
         self.size = new_size
+        self.blocks_known.clear()
         self.first[row1 + 1 :] += base + len(shared) - stop
         each, more = divmod(len(shared), row1 - row0)
         self.first[row0 + 1 : row1 + 1] = base + np.cumsum(np.repeat([each + 1, each], [more, row1 - row0 - more]))
