@@ -166,7 +166,7 @@ class Gesture:
     """One change by the user from its begin to commit or cancel; every preview is worked out from the start."""
 
     def __init__(self, document: Document, label: str) -> None:
-        self.label = label
+        self._label: str | Callable[[], str] = label
         self.edit: Edit | None = None
         self._document = document
         self._selection = document.session.selection
@@ -224,11 +224,21 @@ class Gesture:
         """How many keys the present preview takes away, less those that it brings."""
         return sum(len(change.before) - len(change.after) for change in self._put if isinstance(change, Splice))
 
-    def preview(self, compute: Compute, *, selection: Selecting = None, label: str | None = None) -> None:
+    @property
+    def label(self) -> str:
+        """What its undo step is called if it ends now."""
+        if callable(self._label):
+            self._label = self._label()
+        return self._label
+
+    def preview(
+        self, compute: Compute, *, selection: Selecting = None, label: str | Callable[[], str] | None = None
+    ) -> None:
         """Show the clip as *compute* changes it from the gesture's start, instead of the preview before.
 
         An exception of *compute*, or a change that cannot be made, leaves the preview before in place.
-        *selection* is what is selected then (default: what was at the start), without keys that are gone.
+        *selection* is what is selected then (default: what was at the start), without keys that are gone. *label*
+        may be a function that is called when the label is read, since hardly one preview's is.
         """
         document = self._require_open()
         before, told_before = self._put, self._touched
@@ -244,7 +254,7 @@ class Gesture:
         self._touched = touched.copy()
         touched.add(told_before)
         if label is not None:
-            self.label = label
+            self._label = label
         document._tell(touched, self._without_gone(self._selection if chosen is None else chosen), self._active_now())
         document.gesture_changed.emit()
 
@@ -261,7 +271,7 @@ class Gesture:
         if changes:
             replaced = replaced_keys(changes)
             if replaced:
-                self.label += f", replacing {counted(replaced, 'key')}"
+                self._label = f"{self.label}, replacing {counted(replaced, 'key')}"
             sides = self._selection, session.selection, self._active, session.active
             self.edit = Edit(self.label, tuple(changes), *sides, replaced=replaced)
         document.gesture_changed.emit()

@@ -51,7 +51,8 @@ class Start:
         self._first, self._size = rows.first.copy(), rows.size
         self._part_of = [-1] * rows.rows  # by row: which part holds it; -1: none
         self._parts: list[Part] = []
-        self._written: set[int] = set()  # the parts whose rows differ from the start now
+        # The parts whose rows differ from the start now, in which places of each row.
+        self._written: dict[int, tuple[int, int]] = {}
         self._whole: Whole | None = None
         self._spare: Grids | None = None
         self._keys_moved = False
@@ -76,27 +77,24 @@ class Start:
         """Whether *run* is known to be keys of the start."""
         return any(known is run for _, known in self._runs)
 
-    def keep(self, rows: "Rows", row0: int, row1: int, *, keys_move: bool) -> None:
-        """Make sure of the rows from row0 up to before row1; *keys_move*: not only their numbers will change."""
+    def keep(self, rows: "Rows", row0: int, row1: int, place0: int, place1: int, *, keys_move: bool) -> None:
+        """Make sure of places of the rows row0 to row1 (later); *keys_move*: not only their numbers will change."""
         self._keys_moved |= keys_move
         if self._whole is not None:
             return
-        if row1 == row0 + 1:
-            part = self._part_of[row0]
-            self._written.add(part if part >= 0 else self._copied(rows, row0, row1))
-            return
+        if keys_move:
+            place0, place1 = 0, rows.width
         at = row0
         while at < row1:
             part = self._part_of[at]
-            if part >= 0:
-                self._written.add(part)
-                at = self._parts[part].row1
-                continue
-            end = at + 1
-            while end < row1 and self._part_of[end] < 0:
-                end += 1
-            self._written.add(self._copied(rows, at, end))
-            at = end
+            if part < 0:
+                end = at + 1
+                while end < row1 and self._part_of[end] < 0:
+                    end += 1
+                part = self._copied(rows, at, end)
+            begin, end = self._written.get(part, (place0, place1))
+            self._written[part] = min(begin, place0), max(end, place1)
+            at = self._parts[part].row1
 
     def _copied(self, rows: "Rows", row0: int, row1: int) -> int:
         part = len(self._parts)
@@ -126,10 +124,11 @@ class Start:
         if whole is not None:
             self._spare = rows.grids
             rows.take_over(whole.grids, whole.first, whole.starts)
-        for part in parts:
-            here = slice(part.row0, part.row1)
-            rows.number_grid[:, here], rows.mark_grid[:, here] = part.numbers, part.marks
-            rows.starts[here] = part.numbers[0, :, 0].tolist()
+        for part, (begin, end) in zip(parts, self._written.values(), strict=True):
+            rows.number_grid[:, part.row0 : part.row1, begin:end] = part.numbers[:, :, begin:end]
+            rows.mark_grid[:, part.row0 : part.row1, begin:end] = part.marks[:, :, begin:end]
+            if begin == 0:
+                rows.starts[part.row0 : part.row1] = part.numbers[0, :, 0].tolist()
             rows.dirty.update(range(part.row0, part.row1))
         if self._keys_moved:
             self._remember_start(rows, parts)
@@ -146,7 +145,7 @@ class Start:
 
     def _remember_start(self, rows: "Rows", parts: list[Part]) -> None:
         rows.first[:], rows.size = self._first, self._size
-        rows.blocks_known.clear()
+        rows.forget_places()
         for part in parts:
             rows.id_grid[part.row0 : part.row1] = part.ids
         stretches = [(part.row0, part.row1) for part in parts] if self._whole is None else [(0, rows.rows)]

@@ -85,19 +85,26 @@ class Rows:
         self.marks = self.mark_grid.reshape(3, -1)
         self.ids = self.id_grid.reshape(-1)
         self.times = self.numbers[TIME]
-        self.blocks_known: dict[tuple[int, int], list[Block]] = {}  # follow from `first`: drop them when it changes
         self.first = first  # rank of each row's first key, and at the end the number of keys
+        self.forget_places()
         self.starts = starts  # time of each row's first key
         self.dirty = set(range(self.rows))  # rows whose coefficients were written since somebody cleared this set
 
     # --- places
 
+    def forget_places(self) -> None:
+        """`first` has changed, and so has what was found from it."""
+        self.row_known = (0, -1, 0)  # the ranks that the row found last begins with and ends before, and that row
+        self.blocks_known: dict[tuple[int, int], list[Block]] = {}
+
     def place(self, rank: int) -> tuple[int, int]:
         """(row, place in it) of the key of that rank; rank = size gives the place behind the last key."""
-        if self.rows == 1:
-            return 0, rank
-        row = min(int(self.first.searchsorted(rank, "right")) - 1, self.rows - 1)
-        return row, rank - int(self.first[row])
+        begin, end, row = self.row_known
+        if not begin <= rank < end:
+            row = min(int(self.first.searchsorted(rank, "right")) - 1, self.rows - 1)
+            begin, end = self.first[row : row + 2].tolist()
+            self.row_known = begin, end, row
+        return row, rank - begin
 
     def slot(self, rank: int) -> int:
         """The slot of the key of that rank."""
@@ -235,7 +242,9 @@ class Rows:
     def _store(self, rank0: int, run: Run, *, ids_too: bool = True) -> None:
         """Write *run* over the keys from rank0 on; coefficients are left as they are."""
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + len(run)):
-            self._keep(row, row + rows, keys_move=ids_too)
+            self._keep(
+                row, row + rows, place, self.width if place + count == held else place + count, keys_move=ids_too
+            )
             part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
             at = np.s_[row : row + rows, place : place + count]
             for field, column in NUMBER_FIELDS:
@@ -253,10 +262,10 @@ class Rows:
             if place == 0:
                 self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
 
-    def _keep(self, row0: int, row1: int, *, keys_move: bool) -> None:
-        """The rows from row0 up to before row1 are about to be written: their numbers, or also which keys they hold."""
+    def _keep(self, row0: int, row1: int, place0: int, place1: int, *, keys_move: bool) -> None:
+        """These places of the rows row0 to row1 are about to be written: numbers, or also which keys they hold."""
         if self.start is not None:
-            self.start.keep(self, row0, row1, keys_move=keys_move)
+            self.start.keep(self, row0, row1, place0, place1, keys_move=keys_move)
 
     def _remember(self, ids: NDArray[np.int32], row: int) -> None:
         """Note that these keys, one line for each row, are in rows *row* and following."""
@@ -276,7 +285,7 @@ class Rows:
         """Write columns column0 and following of the keys from rank0 on; numbers: (columns, n)."""
         stop, n = column0 + len(numbers), numbers.shape[1]
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + n):
-            self._keep(row, row + rows, keys_move=False)
+            self._keep(row, row + rows, place, self.width if place + count == held else place + count, keys_move=False)
             grid = self.number_grid[column0:stop, row : row + rows]
             part = numbers[:, rank - rank0 : rank - rank0 + rows * count]
             grid[:, :, place : place + count] = part.reshape(len(numbers), rows, count)
@@ -318,7 +327,7 @@ class Rows:
 
     def _shift(self, row: int, place: int, gone: int, come: int) -> None:
         """Move what follows in the row, so that *come* keys have room where *gone* were."""
-        self._keep(row, row + 1, keys_move=True)
+        self._keep(row, row + 1, 0, self.width, keys_move=True)
         held = self.held(row)
         new_held = held + come - gone
         tail_stays = place + come < new_held
@@ -330,7 +339,7 @@ class Rows:
             if new_held < held and (tail_stays or come == 0):
                 line[:, new_held : held if tail_stays else self.width] = line[:, new_held - 1 : new_held]
         self.first[row + 1 :] += come - gone
-        self.blocks_known.clear()
+        self.forget_places()
         self.size += come - gone
         if place == 0 and come == 0:
             self.starts[row] = float(self.number_grid[TIME, row, 0])
@@ -367,7 +376,7 @@ class Rows:
             self._make(new_size)
             row1 = self.rows
         self.size = new_size
-        self.blocks_known.clear()
+        self.forget_places()
         self.first[row1 + 1 :] += base + len(shared) - stop
         each, more = divmod(len(shared), row1 - row0)
         self.first[row0 + 1 : row1 + 1] = base + np.cumsum(np.repeat([each + 1, each], [more, row1 - row0 - more]))

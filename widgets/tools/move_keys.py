@@ -38,7 +38,7 @@ class MoveKeys(EditDrag):
         def moved(clip: Clip) -> Iterable[Change]:
             return edits.move(clip, selection, d_time, d_value, reorder=reorder)
 
-        self.gesture.preview(moved, label=document.label_of("Move", selection, d_time, d_value))
+        self.gesture.preview(moved, label=lambda: document.label_of("Move", selection, d_time, d_value))
         self.d_time, self.d_value = d_time, d_value
 
     @property
