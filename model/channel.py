@@ -229,15 +229,15 @@ class Channel(Curve):
         rank0 = splicing.rank_of_run(rows, before, after)
         rank1 = rank0 + len(before)
         old, old_size = splicing.outer(rows, rank0, rank1), rows.size
-        minus_zero = splicing.check_run(after, old.time_before, old.time_after)
+        found = splicing.check_run(after, old.time_before, old.time_after)
         same_ids = len(before) == len(after) and splicing.have_same_ids(before, after)
         if not same_ids:
             ids, self._next_id = splicing.ids_for(rows, before, after, self._next_id)
             if ids is not None:
                 after = after.copy()
                 after["id"] = ids
-        rows.minus_zero |= minus_zero
-        moved0, moved1 = rows.replace(rank0, rank1, after, same_ids=same_ids)
+        rows.minus_zero |= found.minus_zero
+        moved0, moved1 = rows.replace(rank0, rank1, after, same_ids=same_ids, slopes_too=found.slopes)
         rank1 = rank0 + len(after)
         splicing.rebuild(rows, min(moved0, rank0), max(moved1, rank1))
         self._changed()

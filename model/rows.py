@@ -239,15 +239,16 @@ class Rows:
                 return False
         return True
 
-    def _store(self, rank0: int, run: Run, *, ids_too: bool = True) -> None:
+    def _store(self, rank0: int, run: Run, *, ids_too: bool = True, slopes_too: bool = True) -> None:
         """Write *run* over the keys from rank0 on; coefficients are left as they are."""
+        fields = NUMBER_FIELDS if slopes_too else NUMBER_FIELDS[:SLOPE_IN]
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + len(run)):
             self._keep(
                 row, row + rows, place, self.width if place + count == held else place + count, keys_move=ids_too
             )
             part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
             at = np.s_[row : row + rows, place : place + count]
-            for field, column in NUMBER_FIELDS:
+            for field, column in fields:
                 self.number_grid[column][at] = part[field]
             for field, column in MARK_FIELDS:
                 self.mark_grid[column][at] = part[field]
@@ -295,10 +296,11 @@ class Rows:
 
     # --- replacing
 
-    def replace(self, rank0: int, rank1: int, run: Run, *, same_ids: bool) -> tuple[int, int]:
+    def replace(self, rank0: int, rank1: int, run: Run, *, same_ids: bool, slopes_too: bool = True) -> tuple[int, int]:
         """Put *run* in the place of the keys of ranks rank0 to rank1 (which may be none).
 
-        *same_ids* says that both have the same ids in the same order. Gives the ranks of all keys whose coefficients
+        *same_ids* says that both have the same ids in the same order, *slopes_too* that slopes count which *run* gives.
+        Gives the ranks of all keys whose coefficients
         must be worked out anew because they are new or have moved.
         """
         gone, come = rank1 - rank0, len(run)
@@ -307,7 +309,7 @@ class Rows:
                 self._write_elsewhere(self.start, keys_move=not same_ids)
             if not same_ids:
                 self._forget(rank0, rank1)
-            self._store(rank0, run, ids_too=not same_ids)
+            self._store(rank0, run, ids_too=not same_ids, slopes_too=slopes_too)
             return rank0, rank0 + come
         row, place = self.place(rank0)
         held = self.held(row)

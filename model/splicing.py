@@ -25,13 +25,15 @@ MANY = 1000
 
 _IN_RULES = np.array([rule in TANGENT_RULES and rule != TangentRule.STEP for rule in range(256)])
 _OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
-# Both rules of a key as one number, of which each of the 65536 is known or not.
+# Both rules of a key as one number, and what each of the 65536 there can be stands for.
 assert KEY_DTYPE.fields is not None
 _PAIR_OF_RULES = np.dtype(
     {"names": ["rules"], "formats": ["u2"], "offsets": [KEY_DTYPE.fields["rule_in"][1]], "itemsize": KEY_DTYPE.itemsize}
 )
 _BYTES = np.arange(65536, dtype=np.uint16).view(np.uint8).reshape(-1, 2)
-_KNOWN_PAIRS = _IN_RULES[_BYTES[:, 0]] & _OUT_RULES[_BYTES[:, 1]]
+_UNKNOWN, _BY_RULE, _FIXED = range(3)
+_KIND_OF_PAIR = np.where(_IN_RULES[_BYTES[:, 0]] & _OUT_RULES[_BYTES[:, 1]], _BY_RULE, _UNKNOWN).astype(np.uint8)
+_KIND_OF_PAIR[(_KIND_OF_PAIR == _BY_RULE) & (_BYTES == TangentRule.FIXED).any(axis=1)] = _FIXED
 
 
 class Outer(NamedTuple):
@@ -81,14 +83,18 @@ def have_same_ids(run: Run, other: Run) -> bool:
     return all((ids[at : at + AT_A_TIME] == others[at : at + AT_A_TIME]).all() for at in range(0, len(run), AT_A_TIME))
 
 
-def check_run(run: Run, time_before: float, time_after: float) -> bool:
-    """Raise ValueError, naming key and field, unless *run* can stand between keys of these times.
+class Given(NamedTuple):
+    """What a run that can stand where it is to stand holds."""
 
-    Gives whether a value is -0.0.
-    """
+    minus_zero: bool  # whether a value is -0.0
+    slopes: bool  # whether a side is fixed: only there do slopes count that are given
+
+
+def check_run(run: Run, time_before: float, time_after: float) -> Given:
+    """Raise ValueError, naming key and field, unless *run* can stand between keys of these times."""
     if len(run) <= FEW:
         return _check_few(run, time_before, time_after)
-    minus_zero = False
+    minus_zero = slopes = False
     last = time_before
     numbers = np.empty((4, min(len(run), AT_A_TIME)))
     with np.errstate(all="ignore"):
@@ -98,8 +104,10 @@ def check_run(run: Run, time_before: float, time_after: float) -> bool:
             for field, column in NUMBER_FIELDS:
                 columns[column] = part[field]
             # A sum is finite only if all its terms are; one that is not may still be of finite terms.
-            if not isfinite(columns.sum()) or not _known_rules(part):
+            kind = _kind_of_rules(part)
+            if not isfinite(columns.sum()) or not kind:
                 _refuse_numbers_or_rules(part, at)
+            slopes |= kind == _FIXED
             times, values = columns[TIME], columns[VALUE]
             if times[0] <= last or not (times[1:] > times[:-1]).all():
                 before = np.append(last, times[:-1])
@@ -110,18 +118,20 @@ def check_run(run: Run, time_before: float, time_after: float) -> bool:
             if not values.all():
                 minus_zero |= bool(np.signbit(values[values == 0.0]).any())
     _check_last(run, last, time_after)
-    return minus_zero
+    return Given(minus_zero, slopes)
 
 
-def _known_rules(part: Run) -> bool:
+def _kind_of_rules(part: Run) -> int:
+    """_UNKNOWN if a side has no rule there can be, else _FIXED if one is fixed, else _BY_RULE."""
     rules = part.view(_PAIR_OF_RULES)["rules"]
     first = rules[0]
     if (rules == first).all():
-        return bool(_KNOWN_PAIRS[first])
-    return bool(_KNOWN_PAIRS[rules].all())
+        return int(_KIND_OF_PAIR[first])
+    kinds = _KIND_OF_PAIR[rules]
+    return _UNKNOWN if kinds.min() == _UNKNOWN else int(kinds.max())
 
 
-def _check_few(run: Run, last: float, time_after: float) -> bool:
+def _check_few(run: Run, last: float, time_after: float) -> Given:
     """The same for a few keys, in Python numbers."""
     minus_zero = False
     for place, (time, value, slope_in, slope_out, rule_in, rule_out, _, _) in enumerate(run.tolist()):
@@ -134,7 +144,7 @@ def _check_few(run: Run, last: float, time_after: float) -> bool:
         last = time
         minus_zero |= value == 0.0 and copysign(1.0, value) < 0.0
     _check_last(run, last, time_after)
-    return minus_zero
+    return Given(minus_zero, True)
 
 
 def _check_last(run: Run, last: float, time_after: float) -> None:
@@ -251,8 +261,13 @@ def _rebuild_many(rows: Rows, rank0: int, rank1: int) -> None:
 def _rebuild_part(rows: Rows, rank0: int, rank1: int, keys: Floats, out: Floats) -> None:
     # One key before, one after for the last span, and that key's other neighbour for its slope.
     left, right = max(rank0 - 1, 0), min(rank1 + 2, rows.size)
-    n = rows.columns(left, right, stop=SLOPE_OUT + 1, into=keys[:, : right - left])
     rule_in, rule_out = rows.rules(left, right)
+    # Slopes that were given count where a side is fixed, and nowhere else.
+    given = bool((rule_in == TangentRule.FIXED).any() or (rule_out == TangentRule.FIXED).any())
+    n = keys[:, : right - left]
+    rows.columns(
+        left, right, stop=SLOPE_OUT + 1 if given else VALUE + 1, into=n[: SLOPE_OUT + 1 if given else VALUE + 1]
+    )
     slope_in, slope_out = slopes_of(n[TIME], n[VALUE], n[SLOPE_IN], n[SLOPE_OUT], rule_in, rule_out)
     here, spans = slice(rank0 - left, rank1 - left), slice(rank0 - left, min(rank1, rows.size - 1) - left)
     after = slice(spans.start + 1, spans.stop + 1)

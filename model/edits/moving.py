@@ -10,7 +10,7 @@ from model.change import Change, Splice
 from model.channel import Channel
 from model.clip import Clip
 from model.hermite import LARGEST, Floats
-from model.keyframe import Run, TangentRule
+from model.keyframe import KEY_DTYPE, Run, TangentRule
 from model.placing import placed, rounding_slack, strictly_increasing
 from model.selection import Selection
 
@@ -41,16 +41,18 @@ def clamped(numbers: Floats) -> Floats:
     return numbers.clip(-LARGEST, LARGEST)
 
 
-def add_to(column: Floats, number: float) -> None:
-    """Add *number* to *column* in place; sums that no double can hold stop at the end of its range."""
+def _moved(keys: Run, d_time: float, d_value: float) -> Run:
+    """Copies of *keys* with both added; sums that no double can hold stop at the end of its range."""
+    rows = np.empty(len(keys), KEY_DTYPE)
     with np.errstate(over="ignore"):
-        for at in range(0, len(column), AT_A_TIME):
-            part = column[at : at + AT_A_TIME]
-            sums = part + number
-            if number > 0.0:
-                part[:] = np.minimum(sums, LARGEST, out=sums)
-            else:
-                part[:] = np.maximum(sums, -LARGEST, out=sums)
+        for at in range(0, len(keys), AT_A_TIME):
+            part = rows[at : at + AT_A_TIME]
+            part[:] = keys[at : at + AT_A_TIME]
+            for field, number in (("time", d_time), ("value", d_value)):
+                if number:
+                    sums = part[field] + number
+                    part[field] = np.minimum(sums, LARGEST) if number > 0.0 else np.maximum(sums, -LARGEST)
+    return rows
 
 
 def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reorder: bool = True) -> list[Change]:
@@ -68,12 +70,9 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
             d_time = _stopped(keys, limit, d_time)
     changes: list[Change] = []
     for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
-        rows = keys.copy()
+        rows = _moved(keys, d_time, d_value)
         slack = 0.0
-        if d_value:
-            add_to(rows["value"], d_value)
         if d_time:
-            add_to(rows["time"], d_time)
             times = rows["time"]
             if limit is not None:
                 rows["time"] = _inside(times, limit, keys["time"])
