@@ -70,7 +70,7 @@ def quotients(digits: Integers, places: Integers) -> tuple[Floats, Bools]:
     result = quotient + correction
     rest = np.abs((quotient - result) + correction)
     gap = np.spacing(result)
-    certain = (np.abs(rest - 0.5 * gap) > 0.001 * gap) & (np.abs(rest - 0.25 * gap) > 0.001 * gap)
+    certain = (np.abs(rest - 0.5 * gap) > 0.001 * gap) & (np.abs(rest - 0.25 * gap) > 0.001 * gap) | (digits == 0)
     return result, certain
 
 
@@ -85,8 +85,11 @@ def fill_cells(cells: Cells, numbers: Floats) -> None:
     exponents = np.floor(np.log10(sizes)).astype(np.int64)
     digits, good = _shortest_digits(sizes, exponents)
     good &= easy
-    cells[:, 0] |= np.where(good & (numbers < 0), _MINUS, np.uint32(0))
+    zero = numbers == 0  # common, and without a logarithm: laid out as 1.0 and then made 0.0
+    good |= zero
+    cells[:, 0] |= np.where(good & np.signbit(numbers), _MINUS, np.uint32(0))
     _fill_digits(cells, sizes.astype(np.int64), digits, 16 - exponents)
+    cells[zero, 2] = _LEADING[0]
     if not good.all():
         others = np.flatnonzero(~good)
         texts = np.array([repr(number) for number in numbers[others].tolist()], f"S{4 * (CELL - 1)}")

@@ -23,9 +23,9 @@ type Words = dict[bytes, int]
 
 _FLAG: Final = re.compile(rb"[ \t\r\n]*(" + BROKEN + rb")(?=[ \t\r\n]|\Z)")
 
-_PIECE: Final = 1 << 18  # bytes read at once
+_PIECE: Final = 1 << 19  # bytes read at once
 _SMALL: Final = 1 << 13  # bytes below which one word after the other is quicker than whole columns
-_LINES: Final = 4096  # written at once
+_LINES: Final = 8192  # written at once
 
 
 def run_from_text(scanner: Scanner, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Run:
