@@ -233,10 +233,11 @@ class Curve:
         return tuple(float(column[0]) for column in spans)  # type: ignore[return-value]
 
     def _spans(self, rank0: int, rank1: int) -> Spans:
-        slots = self._rows.slots(np.arange(rank0, rank1 + 1))
-        times = self._rows.times[slots]
-        spans = evaluation.finite_coefficients(self._rows, slots[:-1])
-        return Spans(times[:-1], times[1:], *spans, self._rows.numbers[VALUE][slots[:-1]])
+        numbers = self._rows.columns(rank0, rank1 + 1)
+        times, (a, b, c) = numbers[TIME], numbers[A : C + 1, :-1]
+        if not np.isfinite(numbers[A : C + 1, :-1]).all():
+            a, b, c = evaluation.finite_coefficients(self._rows, self._rows.slots(np.arange(rank0, rank1)))
+        return Spans(times[:-1], times[1:], a, b, c, numbers[VALUE, :-1])
 
     def spans_from(self, time: float, most: int) -> Floats:
         """(time0, time1, d_time, a, b, c, d) of neighbouring spans: (7, n), 1 <= n <= *most*.

@@ -44,7 +44,7 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
     spans = many[0] if len(many) == 1 else Spans(*map(np.concatenate, zip(*many, strict=True)))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         table = _in_pixels(spans, window)
-        n = _pieces(table, sideways)
+        n, turning = _pieces(table, sideways)
         points = n + 1
         borders = np.cumsum(lengths)[:-1] if len(many) > 1 else None
         points[:-1] -= _joined(table, borders)
@@ -54,7 +54,7 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
         u = np.arange(float(ends[-1]))
         u -= starts.take(which)
         u /= n.take(which)
-        _set_extrema(u, table, n, starts)
+        _set_extrema(u, table, n, starts, turning)
         x0, wide, d, c, b, y = table.take(which, axis=1)
         for factor in (b, c, d):
             y *= u
@@ -121,30 +121,42 @@ def _seen_part(table: Floats, window: Window) -> Floats:
     )
 
 
-def _pieces(table: Floats, sideways: float) -> NDArray[np.intp]:
-    """Into how many straight pieces each span is cut."""
-    wide, b, a = table[1], table[4], table[5]
-    # A chord of a parabola leaves it by an eighth of the second derivative times its length squared; two points
-    # moved onto extrema may stretch the piece between them to twice its length.
-    bend = 3 * a
-    bend += b
+def _pieces(table: Floats, sideways: float) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Into how many straight pieces each span is cut, and whether it may turn between its ends."""
+    wide, c, b, a = table[1], table[3], table[4], table[5]
+    cubic = 3 * a
+    bend = cubic + b
+    rise = c + b
+    rise += bend
+    rise *= c
+    cubic *= c
+    # The slope is 0 between the ends if it changes sides, or twice if it bends back and reaches 0 between.
+    turning = ~(rise > 0.0)
+    turning |= ((b < 0.0) != (bend < 0.0)) & ~(b * b < cubic)
+    # A chord leaves a cubic by an eighth of the second derivative times its length squared.
     np.abs(bend, out=bend)
     np.maximum(bend, np.abs(b), out=bend)
-    bend *= 1 / TOLERANCE
+    bend *= 1 / (4 * TOLERANCE)
     pieces = np.sqrt(bend, out=bend)
     # However steep it is, a cubic leaves a piece that only rises or falls sideways, by 0.39 of its width at most.
-    np.minimum(pieces, wide * (0.8 / sideways), out=pieces)
+    most = wide * (0.4 / sideways)
+    # Two points moved onto extrema may stretch the piece between them to twice its length.
+    turning &= pieces > 1.0
+    np.multiply(pieces, 2.0, out=pieces, where=turning)
+    np.maximum(most * 2, 2.0, out=most, where=turning)
+    np.minimum(pieces, most, out=pieces)
     if not pieces.max() <= MOST_PIECES:
         pieces = np.minimum(np.nan_to_num(pieces, nan=MOST_PIECES, posinf=MOST_PIECES), MOST_PIECES)
     np.ceil(pieces, out=pieces)
     np.maximum(pieces, 1.0, out=pieces)
-    counts: NDArray[np.intp] = pieces.astype(np.intp)
-    return counts
+    return pieces.astype(np.intp), turning
 
 
-def _set_extrema(u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[np.intp]) -> None:
+def _set_extrema(
+    u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[np.intp], turning: NDArray[np.bool_]
+) -> None:
     """Move the nearest inner point of each span onto each extremum; a span of one piece has none worth a point."""
-    (bent,) = (n > 1).nonzero()
+    (bent,) = turning.nonzero()
     if not len(bent):
         return
     c, b, a = table[3:].take(bent, axis=1)
@@ -158,9 +170,10 @@ def _set_extrema(u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[
     places = np.empty((2, len(bent)))
     np.divide(q, a, out=places[0])
     np.divide(c, q, out=places[1])
-    which, some = ((places > 0) & (places < 1)).nonzero()
+    flat = places.reshape(-1)
+    (some,) = ((flat > 0) & (flat < 1)).nonzero()
     if len(some):
-        place, span = places[which, some], bent.take(some)
+        place, span = flat.take(some), bent.take(some, mode="wrap")
         last = n.take(span)
         at = np.rint(place * last).astype(np.intp)
         np.minimum(np.maximum(at, 1, out=at), last - 1, out=at)

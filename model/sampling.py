@@ -12,6 +12,8 @@ type Floats = NDArray[np.float64]
 
 # Qt's painter hangs or paints rubbish far outside the window: nothing is drawn beyond this many pixels.
 FAR = 1e5
+# No value is drawn beyond this; and numbers above the other one are not copied, since their sums may overflow.
+LARGE, TOO_LARGE = 1e300, 1e280
 
 
 class Window(NamedTuple):
@@ -121,30 +123,32 @@ def slope_outside(channel: Channel, *, after: bool) -> float | None:
 
 
 def spans_outside(channel: Channel, t0: float, t1: float, *, after: bool, most: int) -> Spans | None:
-    """The extrapolation between *t0* and *t1* on one side as spans; None if that takes more than *most* of them."""
-    first, last = channel.first, channel.last
-    if first is None or last is None:
+    """The extrapolation between *t0* and *t1* on one side as spans; None if that takes more than *most* of them.
+
+    None too if numbers are so large that copies of them overflow: their columns are still exact.
+    """
+    ends, mode = channel.ends(), channel.post if after else channel.pre
+    if ends is None:
         return _no_spans()
-    end, mode = (last, channel.post) if after else (first, channel.pre)
-    t0, t1 = (max(t0, end.time), t1) if after else (t0, min(t1, end.time))
+    t0, t1 = (max(t0, ends.time1), t1) if after else (t0, min(t1, ends.time0))
     if not t0 < t1:
         return _no_spans()
     slope = slope_outside(channel, after=after)
     if slope is not None:
-        with np.errstate(over="ignore"):
-            rise = float(np.clip(np.float64(slope) * (t1 - t0), -1e300, 1e300))
-            start = end.value if after else float(np.clip(end.value - rise, -1e300, 1e300))
+        rise = min(max(slope * (t1 - t0), -LARGE), LARGE)
+        start = ends.value1 if after else min(max(ends.value0 - rise, -LARGE), LARGE)
         return Spans(*(np.array([number], np.float64) for number in (t0, t1, 0.0, 0.0, rise, start)))
-    period = last.time - first.time
-    low = np.floor((t0 - first.time) / period)
-    high = np.floor((t1 - first.time) / period)
+    period = ends.period
+    low, high = (t0 - ends.time0) // period, (t1 - ends.time0) // period
     low, high = (max(low, 1.0), high) if after else (low, min(high, -1.0))
     copies = max(high - low + 1.0, 0.0)
     if copies * len(channel) > most:
         return None
-    whole = channel.spans_between(first.time, last.time)
-    mirrored = _mirrored(whole, first.time + last.time)
-    climb = last.value - first.value if mode is Extrapolation.CYCLE_OFFSET else 0.0
+    whole = channel.spans_between(ends.time0, ends.time1)
+    if not np.abs(np.array(whole)).max() < TOO_LARGE or not abs(ends.value1) < TOO_LARGE:
+        return None
+    mirrored = _mirrored(whole, ends.time0 + ends.time1)
+    climb = ends.value1 - ends.value0 if mode is Extrapolation.CYCLE_OFFSET else 0.0
     parts = []
     for k in np.arange(low, low + copies):
         part = mirrored if mode is Extrapolation.BOUNCE and k % 2 else whole

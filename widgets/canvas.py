@@ -23,7 +23,7 @@ from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of
 from widgets.numbers import is_angle
-from widgets.stage import LABEL_SIZE, Manner, Overlay, Stage, sized, unit_of
+from widgets.stage import LABEL_SIZE, Manner, Overlay, Stage, manner_in, sized, unit_of
 from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
 from widgets.traces import Trace, live_channels, traces_of
@@ -239,8 +239,9 @@ class Canvas(QGraphicsItem):
 
     def _looks_different(self, channel: Channel) -> bool:
         """Whether so many keys have come or gone that the whole channel is drawn in another manner."""
-        before = self._stage.manners.get(channel) if self._stage is not None else None
-        return self._stage is not None and before is not None and before[1] != self._stage.manner_of(channel)
+        window, manners = self._manners or (None, {})
+        before = manners.get(channel)
+        return window is not None and before is not None and before[1] != manner_in(window, channel)
 
     def _repaint_change(self, channel: Channel, t0: float, t1: float) -> None:
         """Repaint what has changed of a curve and, if they are few, its handles as painted last and as they are now."""

@@ -24,6 +24,11 @@ MAX_NEAR = 32
 
 type Floats = NDArray[np.float64]
 type Ints = NDArray[np.int64]
+type Flags = NDArray[np.bool_]
+
+# With more channels changed than this, all are merged anew.
+MOST_LOOSE = 8
+NONE_STALE: Flags = np.zeros(0, np.bool_)
 
 
 @dataclass(slots=True)
@@ -63,23 +68,48 @@ class Strip:
         self.columns = lens.time(left - MARGIN + np.arange(0.0, width + 2 * MARGIN + SEGMENT, SEGMENT))
         self.t0, self.t1 = float(self.columns[0]), float(self.columns[-1])
         self.segment = float(self.columns[1] - self.columns[0])
-        self.rows: list[_Row] = []
         self._channels: list[Channel] = []
         self._revisions: list[int] = []
-        self._merge()
+        self._rows: list[_Row] = []
+        self._settled = self._merged([])
+        # Channels that have changed since: what they were is left out of the settled ones.
+        self._loose = self._merged([])
+        self._stale = np.zeros(0, np.bool_)
 
     def refresh(self, channels: list[Channel]) -> None:
         """Read again the channels that have changed since, and no others."""
         revisions = [channel.revision for channel in channels]
-        if revisions == self._revisions and channels == self._channels:
+        same = channels == self._channels
+        if same and revisions == self._revisions:
             return
-        known = {row.channel: row for row in self.rows}
-        self.rows = [
+        known = {row.channel: row for row in self._rows}
+        self._rows = [
             row if (row := known.get(channel)) and row.revision == channel.revision else self._read(channel)
             for channel in channels
         ]
         self._channels, self._revisions = channels, revisions
-        self._merge()
+        changed = [i for i, row in enumerate(self._rows) if row is not self._settled.rows[i]] if same else None
+        if changed is None or len(changed) > MOST_LOOSE:
+            self._settled, changed = self._merged(self._rows), []
+        self._loose = self._merged([self._rows[i] for i in changed])
+        self._stale = np.zeros(len(self._rows), np.bool_)
+        self._stale[changed] = True
+
+    def _merged(self, rows: list[_Row]) -> "_Merged":
+        return _Merged(rows, (self.t0, self.t1), self.segment)
+
+    def keys_near(self, lens: Lens, selection: Selection, x: float, y: float, radius: float) -> Near:
+        """Keys within the radius; where there are very many the nearest and the selected ones."""
+        return _joined(
+            self._settled.keys_near(lens, selection, x, y, radius, self._stale),
+            self._loose.keys_near(lens, selection, x, y, radius),
+        )
+
+    def curves_near(self, lens: Lens, x: float, y: float, radius: float) -> Near:
+        """The nearest point of every curve within the radius, by true distance, so that steep spans can be hit too."""
+        return _joined(
+            self._settled.curves_near(lens, x, y, radius, self._stale), self._loose.curves_near(lens, x, y, radius)
+        )
 
     def _read(self, channel: Channel) -> _Row:
         run = channel.keys_between(self.t0, self.t1, around=1)
@@ -100,32 +130,41 @@ class Strip:
         pairs = list(zip(parts, values, strict=True))
         return np.concatenate([np.array([t[:-1], v[:-1], t[1:], v[1:]]) for t, v in pairs], axis=1)
 
-    def _merge(self) -> None:
-        rows = self.rows
-        numbers = np.concatenate([NO_SEGMENTS, *(row.numbers for row in rows)], axis=1)
-        counts = [len(row.ids) for row in rows]
-        owners = np.repeat(np.arange(len(rows)), counts)
+
+class _Merged:
+    """The rows of several channels in the order of time."""
+
+    def __init__(self, rows: list[_Row], times: tuple[float, float], segment: float) -> None:
+        self.rows, self.segment = rows, segment
+        if not rows:
+            return
+        numbers = np.concatenate([row.numbers for row in rows], axis=1)
+        owners = np.repeat(np.arange(len(rows)), [len(row.ids) for row in rows])
         order = np.argsort(numbers[0], kind="stable")
         self.times, self.values = numbers[0][order], numbers[1][order]
-        self.ids = np.concatenate([NO_IDS, *(row.ids for row in rows)])[order]
+        self.ids = np.concatenate([row.ids for row in rows])[order]
         self.key_owners = owners[order]
-        held = np.concatenate([NO_IDS.astype(np.bool_), *(row.held for row in rows)])
-        inside, inside_owners = _cut(numbers, held, owners, (self.t0, self.t1), self.segment)
+        held = np.concatenate([row.held for row in rows])
+        inside, inside_owners = _cut(numbers, held, owners, times, segment)
         outside_owners = np.repeat(np.arange(len(rows)), [row.outside.shape[1] for row in rows])
         segments = np.concatenate([inside, *(row.outside for row in rows)], axis=1)
         order = np.argsort(segments[0], kind="stable")
         self.segments = segments[:, order]
         self.segment_owners = np.concatenate([inside_owners, outside_owners])[order]
 
-    def keys_near(self, lens: Lens, selection: Selection, x: float, y: float, radius: float) -> Near:
-        """Keys within the radius; where there are very many the nearest and the selected ones."""
+    def keys_near(
+        self, lens: Lens, selection: Selection, x: float, y: float, radius: float, stale: Flags = NONE_STALE
+    ) -> Near:
+        """As `Strip.keys_near`, without the *stale* owners."""
+        if not self.rows:
+            return NOTHING
         first = int(self.times.searchsorted(lens.time(x - radius), "left"))
         last = int(self.times.searchsorted(lens.time(x + radius), "right"))
         if first >= last:
             return NOTHING
         low, high = sorted((lens.value(y - radius), lens.value(y + radius)))
         values = self.values[first:last]
-        near = np.flatnonzero((values >= low) & (values <= high)) + first
+        near = _without(stale, np.flatnonzero((values >= low) & (values <= high)) + first, self.key_owners)
         distances = np.hypot(lens.x(self.times[near]) - x, lens.y(self.values[near]) - y)
         inside = distances <= radius
         near, distances = near[inside], distances[inside]
@@ -144,8 +183,10 @@ class Strip:
             chosen[mine] = np.isin(ids[mine], selection.ids(self.rows[owner].channel))
         return chosen
 
-    def curves_near(self, lens: Lens, x: float, y: float, radius: float) -> Near:
-        """The nearest point of every curve within the radius, by true distance, so that steep spans can be hit too."""
+    def curves_near(self, lens: Lens, x: float, y: float, radius: float, stale: Flags = NONE_STALE) -> Near:
+        """As `Strip.curves_near`, without the *stale* owners."""
+        if not self.rows:
+            return NOTHING
         first = int(self.segments[0].searchsorted(lens.time(x - radius) - self.segment, "left"))
         last = int(self.segments[0].searchsorted(lens.time(x + radius), "right"))
         if first >= last:
@@ -153,6 +194,7 @@ class Strip:
         low, high = sorted((lens.value(y - radius), lens.value(y + radius)))
         value0, value1 = self.segments[1, first:last], self.segments[3, first:last]
         near = np.flatnonzero((np.maximum(value0, value1) >= low) & (np.minimum(value0, value1) <= high)) + first
+        near = _without(stale, near, self.segment_owners)
         if not len(near):
             return NOTHING
         time0, value0, time1, value1 = self.segments[:, near]
@@ -172,6 +214,25 @@ class Strip:
         return Near(owners, np.zeros(len(best), np.int64), times, values, distances[best])
 
 
+def _without(stale: Flags, near: Ints, owners: Ints) -> Ints:
+    """What is *near* without what stale owners had there."""
+    return near[~stale[owners[near]]] if stale.any() else near
+
+
+def _joined(one: Near, other: Near) -> Near:
+    if not other.owners or not one.owners:
+        return one if one.owners else other
+    columns = (
+        np.concatenate(pair)
+        for pair in zip(
+            (one.ids, one.times, one.values, one.distances),
+            (other.ids, other.times, other.values, other.distances),
+            strict=True,
+        )
+    )
+    return Near([*one.owners, *other.owners], *columns)
+
+
 def _cut(
     numbers: Floats, held: NDArray[np.bool_], owners: Ints, times: tuple[float, float], segment: float
 ) -> tuple[Floats, Ints]:
@@ -184,14 +245,15 @@ def _cut(
     time1, value1, slope1, _ = numbers[:, spans + 1]
     held, owners = held[spans], owners[spans]
     low, high = np.maximum(time0, times[0]), np.minimum(time1, times[1])
-    counts = np.ceil((high - low) / segment)
-    short = (time1 - time0 <= segment) & ~held
+    with np.errstate(over="ignore"):
+        counts = np.ceil((high - low) / segment)
+        short = (time1 - time0 <= segment) & ~held
     long = np.flatnonzero(~short & (counts > 0))
     which, step, width = _steps(long, low, high, counts)
     start = low[which] + step * width
     end = np.where(step + 1 == counts[which], high[which], start + width)
-    d_time, d_value = time1[which] - time0[which], value1[which] - value0[which]
     with np.errstate(all="ignore"):
+        d_time, d_value = time1[which] - time0[which], value1[which] - value0[which]
         m0, m1 = np.where(held[which], 0.0, slope0[which] * d_time), np.where(held[which], 0.0, slope1[which] * d_time)
         rise = np.where(held[which], 0.0, d_value)
         u0, u1 = (start - time0[which]) / d_time, (end - time0[which]) / d_time

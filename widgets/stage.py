@@ -111,9 +111,7 @@ class Stage:
         """How the channel is to be drawn."""
         known = self.manners.get(channel)
         if known is None or known[0] != channel.revision:
-            count, width = keys_in(channel, self.window), self.window.width
-            manner = Manner(count > width, count > width / self.px(UNDASHED), count > width / self.px(CROWD))
-            known = self.manners[channel] = (channel.revision, manner)
+            known = self.manners[channel] = (channel.revision, manner_in(self.window, channel))
         return known[1]
 
     @property
@@ -149,6 +147,12 @@ class Stage:
     def scaled(self, point: QPointF) -> QPointF:
         """A logical point in screen pixels."""
         return point * self.window.unit
+
+
+def manner_in(window: Window, channel: Channel) -> Manner:
+    """How a window shows a channel."""
+    count, width = keys_in(channel, window), window.width
+    return Manner(count > width, count * UNDASHED * window.unit > width, count * CROWD * window.unit > width)
 
 
 def unit_of(traces: Sequence[Trace]) -> str:

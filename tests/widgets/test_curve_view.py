@@ -18,6 +18,7 @@ from model.selection import Selection
 from tests.widgets.screens import Screen, sample_clip, view_of
 from widgets.curve_view import CurveView
 from widgets.guard import unguarded
+from widgets.hit_test import hit_all
 from widgets.layers import LAYERS
 from widgets.layers.handles import LENGTH
 from widgets.layers.keys import CELL, MOST_SELECTED, SHAPES, one_a_cell
@@ -265,11 +266,14 @@ def test_every_zoom_can_be_painted(make: Make, center: float, span: float) -> No
     assert len(np.unique(Screen(view).shown())) > 2
 
 
-def test_huge_values_are_painted_without_harm(make: Make) -> None:
-    channel = lone((0, 1, 2, 3), (-1e300, 1e300, 0, 5e299), pre=Extrapolation.LINEAR, post=Extrapolation.CYCLE_OFFSET)
+@pytest.mark.parametrize("most", [1e300, 1.7e308])
+@pytest.mark.parametrize("mode", Extrapolation)
+def test_huge_values_are_painted_without_harm(make: Make, mode: Extrapolation, most: float) -> None:
+    channel = lone((0, 1, 2, 3), (-most, most, 0, most / 2), pre=mode, post=mode)
     view = make(Clip([channel], start=0, end=3))
-    view.set_view(ViewRange(-1, 9, -1, 1))
+    view.set_view(ViewRange(-5, 9, -1, 1))
     assert len(np.unique(Screen(view).shown())) > 2
+    assert hit_all(view, view.x_from_time(0.5), 200) is not None
 
 
 def test_a_move_of_the_playhead_repaints_narrow_strips(make: Make) -> None:

@@ -11,14 +11,16 @@ from pytestqt.qtbot import QtBot
 
 from model import edits
 from model.channel import Channel
+from model.clip import Clip
 from model.document import Edit
 from model.extrapolation import Extrapolation
-from model.keyframe import TangentRule
+from model.keyframe import TangentRule, make_run
 from model.selection import Selection
 from tests.widgets.screens import Screen, sample_clip, view_of
 from widgets.curve_view import CurveView
 from widgets.hit_test import Hit
 from widgets.theme import Theme
+from widgets.view_range import ViewRange
 
 RATIOS: Final = (1.0, 1.5, 2.0)
 
@@ -213,3 +215,22 @@ def test_strips_leave_the_pixels_of_a_full_repaint(
             shown = screen.shown()
             wrong = int((shown != screen.painted_anew()).sum())
             assert wrong == 0, f"{wrong} pixels are stale after step {step}: {told[-12:]}"
+
+
+@pytest.mark.parametrize("active", [True, False], ids=["under the hand", "at rest"])
+@pytest.mark.parametrize("most", [192, 576], ids=["marks go", "lines become columns"])
+def test_a_key_too_many_changes_the_look_of_the_whole_channel(qtbot: QtBot, most: int, active: bool) -> None:
+    times = np.linspace(0.1, 9.9, most)
+    channel = Channel("a", make_run(times, np.sin(times) + times % 0.37))
+    clip = Clip([Channel("b", make_run([0, 10], [-2, 3])), channel])
+    view = view_of(clip, (636, 400))
+    qtbot.addWidget(view)
+    view.document.session.active = channel if active else clip.channels[0]
+    screen = Screen(view)
+    view.set_view(ViewRange(0.0, 10.0, -2.0, 3.0))
+    assert view.window_now.width == 576
+    before = screen.shown()
+    view.document.do("Insert", lambda clip: edits.insert(clip, channel, 5.003))
+    after = screen.shown()
+    assert (before != after)[:, 80:300].any(), "what is far from the new key looks as before"
+    assert (after == screen.painted_anew()).all()

@@ -155,6 +155,21 @@ def test_an_edit_is_seen_by_the_next_hit(line: Channel) -> None:
     assert hit(graph, 450, 430).id == 2
 
 
+def test_hits_after_edits_of_some_of_many_channels_are_those_of_a_new_view() -> None:
+    rng = np.random.default_rng(5)
+    channels = [Channel(f"c{i}", make_run(np.arange(9.0), rng.uniform(0, 8, 9))) for i in range(20)]
+    graph = graph_of(*channels)
+    for step in range(30):
+        for channel in rng.choice(np.array(channels, object), rng.integers(1, 12)):
+            run = channel.keys_between(float(rng.integers(1, 8)), 8.0)[:1]
+            moved = run.copy()
+            moved["value"] = rng.uniform(0, 8)
+            channel.splice(run, moved)
+        x, y = rng.uniform((60, 60), (800, 800)).tolist()
+        found, anew = hit_all(graph, x, y), hit_all(graph_of(*channels), x, y)
+        assert sorted(found, key=str) == sorted(anew, key=str), f"step {step}"
+
+
 def test_a_change_of_extrapolation_is_seen_by_the_next_hit() -> None:
     ramp = Channel("ramp", make_run([2.0, 4.0], [3.0, 5.0], rules_in=TangentRule.LINEAR, rules_out=TangentRule.LINEAR))
     graph = graph_of(ramp)
