@@ -11,6 +11,7 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QStackedWidget, QWidget
 
+from model import edits
 from model.channel import Channel
 from model.clip import Clip
 from model.document import Document
@@ -96,7 +97,7 @@ def wander(at: QPointF) -> Iterator[QPointF]:
         yield at + QPointF(reach * float(np.cos(angle)), reach * float(np.sin(angle)))
 
 
-def drag_times(scene: Shown) -> Times:
+def drag_times(scene: Shown, n: int = STEPS) -> Times:
     """Steps of a drag of the selected key, by mouse events on the viewport."""
     view, channel = scene.view, scene.channel
     key, viewport = channel.key(scene.key_id), scene.view.viewport()
@@ -108,7 +109,7 @@ def drag_times(scene: Shown) -> Times:
         send(viewport, QEvent.Type.MouseMove, next(places), NONE, LEFT)
         QApplication.processEvents()
     assert view.document.gesture is not None, "the drag did not begin"
-    times = step_times(lambda: send(viewport, QEvent.Type.MouseMove, next(places), NONE, LEFT))
+    times = step_times(lambda: send(viewport, QEvent.Type.MouseMove, next(places), NONE, LEFT), n)
     view.router.cancel()
     settle(view)
     return times
@@ -177,7 +178,7 @@ def drags(stack: QStackedWidget, clips: dict[str, Clip]) -> list[Line]:
     return lines
 
 
-def drag_of_many(stack: QStackedWidget, clip: Clip) -> Line:
+def drag_of_some(stack: QStackedWidget, clip: Clip) -> Line:
     """A thousand selected keys over twenty channels."""
     scene = shown(stack, clip, None)
     middle = len(clip.channels) // 2
@@ -188,6 +189,15 @@ def drag_of_many(stack: QStackedWidget, clip: Clip) -> Line:
     settle(scene.view)
     times = drag_times(scene._replace(key_id=key_id))
     return Line("a drag step of 1,000 keys over 20 channels", times.median, note="with its paint", most=8e-3)
+
+
+def drag_of_all(stack: QStackedWidget, clip: Clip) -> Line:
+    """Every key of a clip of one channel."""
+    scene = shown(stack, clip, None)
+    scene.view.document.session.selection = Selection.of_all(clip.channels)
+    settle(scene.view)
+    times = drag_times(scene, 12)
+    return Line("a drag step of all 1,000,000 keys", times.median, note="with its paint", most=60e-3)
 
 
 def view_steps(stack: QStackedWidget, name: str, clip: Clip) -> list[Line]:
@@ -212,18 +222,34 @@ def view_steps(stack: QStackedWidget, name: str, clip: Clip) -> list[Line]:
     ]
 
 
-def hit_tests(stack: QStackedWidget, name: str, clip: Clip) -> Line:
-    """What lies under the pointer, at places all over the plot."""
+def hit_tests(stack: QStackedWidget, name: str, clip: Clip) -> list[Line]:
+    """What lies under the pointer, at places all over the plot; and where a key has just been moved."""
     scene = shown(stack, clip, None)
-    rect = scene.view.plot_rect
+    view = scene.view
+    rect = view.plot_rect
     random = np.random.default_rng(3)
     places = cycle(random.uniform((rect.left(), rect.top()), (rect.right(), rect.bottom()), (200, 2)).tolist())
-    taken = []
-    for x, y in [next(places) for _ in range(300)]:
-        start = perf_counter()
-        hit(scene.view, x, y)
-        taken.append(perf_counter() - start)
-    return Line(f"hit test, {name}", summed_up(taken).median, most=0.3e-3)
+    taken = [_hit_time(view, *next(places)) for _ in range(600)][200:]  # all over the plot once, then again
+    one, after_edits, ups = Selection.of_key(scene.channel, scene.key_id), [], cycle((0.5, -0.5))
+    x = float(view.x_from_time(scene.channel.key(scene.key_id).time))
+    for _ in range(100):
+        up = next(ups)
+        view.document.do("Move", lambda clip, up=up: edits.move(clip, one, 0.0, up))
+        QApplication.processEvents()  # it is painted before anybody can point at it
+        after_edits.append(_hit_time(view, x + 3.0, rect.center().y()))
+    times, first = summed_up(taken), summed_up(after_edits)
+    return [
+        Line(f"hit test, {name}", times.median, most=0.3e-3),
+        Line(f"hit test, {name}, 99 %", times.p99),
+        Line(f"the first hit test after an edit, {name}", first.median, most=0.3e-3),
+        Line(f"the first hit test after an edit, {name}, 99 %", first.p99),
+    ]
+
+
+def _hit_time(view: CurveView, x: float, y: float) -> float:
+    start = perf_counter()
+    hit(view, x, y)
+    return perf_counter() - start
 
 
 def run() -> list[Line]:
@@ -233,8 +259,9 @@ def run() -> list[Line]:
     stack.show()
     clips = {name: make() for name, make in CLIPS.items()}
     lines = drags(stack, clips)
-    lines.append(drag_of_many(stack, clips["200 x 1,000 keys"]))
+    lines.append(drag_of_some(stack, clips["200 x 1,000 keys"]))
+    lines.append(drag_of_all(stack, clips["1 x 1,000,000 keys"]))
     for name, clip in clips.items():
-        lines += [*view_steps(stack, name, clip), hit_tests(stack, name, clip)]
+        lines += [*view_steps(stack, name, clip), *hit_tests(stack, name, clip)]
     stack.close()
     return lines
