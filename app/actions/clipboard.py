@@ -48,7 +48,7 @@ PASTES = (
 
 
 def _paste(how: Paste, window: "MainWindow") -> None:
-    """Paste the keys that the clipboard holds; what cannot be pasted is said and changes nothing."""
+    """Paste the keys that the clipboard holds; what cannot be pasted is said."""
     session = window.session
     try:
         copied = keys_from_text(QGuiApplication.clipboard().text())
@@ -60,9 +60,13 @@ def _paste(how: Paste, window: "MainWindow") -> None:
             replace=how.replace,
             onto_active=how.onto_active,
         )
-        places = channels_text(dict.fromkeys(change.channel for change in changes if isinstance(change, Splice)))
-        label = f"Paste {counted(copied.key_count, 'key')} into {places}"
+        splices = [change for change in changes if isinstance(change, Splice)]
+        count = sum(int((splice.after["id"] == 0).sum()) for splice in splices)
+        places = channels_text(dict.fromkeys(splice.channel for splice in splices))
+        label = f"Paste {counted(count, 'key')} into {places}"
         window.document.do(label, lambda clip: changes, selection=added_keys)
+        if count < copied.key_count:
+            window.say(f"{label}: for the other {copied.key_count - count} there is no unlocked channel")
     except ValueError as error:
         window.say(f"Nothing was pasted: {error}")
 

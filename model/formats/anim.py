@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from model.extrapolation import Extrapolation
 from model.formats.content import ChannelContent, Content
-from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
+from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, meant, shown
 from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token
 from model.keyframe import Run, TangentRule
@@ -51,7 +51,8 @@ def read(data: bytes, report: Report = unheard) -> Content:
         else:
             missing = "'range', 'numchannels', 'channel' or '}'"
             twice = " a second time" if token.text in (b"range", b"numchannels") else ""
-            raise TextError(token.start, f"expected {missing}, found {shown(token.text)}{twice}")
+            remedy = "" if twice else meant(token.text, ("range", "numchannels", "channel"))
+            raise TextError(token.start, f"expected {missing}, found {shown(token.text)}{twice}", remedy)
     scanner.expect_end()
     if span is None:
         raise TextError(token.start, "the clip has no range", "add a line such as 'range 0.0 4.0' (seconds)")
@@ -87,7 +88,8 @@ def _read_channel(scanner: Scanner, name: str) -> ChannelContent:
             run = _read_keys(scanner)
         else:
             twice = " a second time" if token.text in (b"extrapolate", b"keys") else ""
-            raise TextError(token.start, f"expected 'extrapolate', 'keys' or '}}', found {shown(token.text)}{twice}")
+            problem = f"expected 'extrapolate', 'keys' or '}}', found {shown(token.text)}{twice}"
+            raise TextError(token.start, problem, "" if twice else meant(token.text, ("extrapolate", "keys")))
     if run is None:
         raise TextError(token.start, f"{name} has no keys block", "an empty channel is written 'keys 0 { }'")
     pre_mode, post_mode = modes or (Extrapolation.CONSTANT, Extrapolation.CONSTANT)

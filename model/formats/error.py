@@ -1,5 +1,6 @@
 """FormatError: where a file stops making sense, what was found there, and what to do about it."""
 
+from collections.abc import Iterable
 from typing import Final
 
 MAX_FILE_BYTES: Final = 256 << 20
@@ -57,6 +58,19 @@ def place_of(data: bytes, offset: int) -> tuple[int, int]:
     """(line, column) of a byte, both from 1; columns count characters."""
     start = data.rfind(b"\n", 0, offset) + 1
     return data.count(b"\n", 0, offset) + 1, len(data[start:offset].decode("utf-8", "replace")) + 1
+
+
+def meant(token: bytes | str, words: Iterable[bytes | str]) -> str:
+    """The remedy for a word that is nearly one of *words*; empty when it is like none of them."""
+    import difflib  # only when something is wrong
+
+    texts = [_text(word) for word in words]
+    close = difflib.get_close_matches(_text(token).lower(), texts, 1, 0.6)
+    return f"did you mean '{close[0]}'?" if close else ""
+
+
+def _text(word: bytes | str) -> str:
+    return word if isinstance(word, str) else word.decode("utf-8", "replace")
 
 
 def shown(token: bytes | str) -> str:

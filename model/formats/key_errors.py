@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from model.formats.error import TextError, place_of, shown
+from model.formats.error import TextError, meant, place_of, shown
 from model.formats.numerals import NUMBER
 from model.formats.scanner import Token, check_length, number_from
 
@@ -51,7 +51,9 @@ def _check_tangent(token: Token, words: dict[bytes, int], what: str) -> None:
         number_from(token, what)
         return
     known = ", ".join(word.decode() for word in words)
-    remedy = "step is a rule for the tangent out only" if token.text in (b"step", b"stepped") else ""
+    remedy = meant(token.text, words)
+    if token.text in (b"step", b"stepped"):
+        remedy = "step is a rule for the tangent out only"
     raise TextError(token.start, f"expected {what} ({known}, or a number), found {shown(token.text)}", remedy)
 
 

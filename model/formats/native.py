@@ -14,7 +14,7 @@ from typing import Final
 
 from model.extrapolation import Extrapolation
 from model.formats.content import ChannelContent, Content
-from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, shown
+from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, meant, shown
 from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token, checked_text, quoted
 from model.keyframe import Run, TangentRule
@@ -81,7 +81,7 @@ def _unexpected(token: Token, words: tuple[str, ...]) -> TextError:
         return TextError(token.start, "found a comment, which this format has not", "put remarks into the title")
     if token.text.decode("ascii", "replace") in words:
         return TextError(token.start, f"found {shown(token.text)} a second time", "delete one of them")
-    remedy = "" if token.text else "the file is cut off; take an older copy"
+    remedy = meant(token.text, words) if token.text else "the file is cut off; take an older copy"
     return TextError(token.start, f"expected one of {known}, found {shown(token.text)}", remedy)
 
 

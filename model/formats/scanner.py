@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import Final, NamedTuple
 
-from model.formats.error import MAX_NAME_BYTES, MAX_TOKEN_BYTES, TextError, shown
+from model.formats.error import MAX_NAME_BYTES, MAX_TOKEN_BYTES, TextError, meant, shown
 from model.formats.numerals import NUMBER
 from model.progress import Report, unheard
 
@@ -56,7 +56,9 @@ class Scanner:
         """Take *word*; anything else is a TextError that says what was expected."""
         token = self.next()
         if token.text != word:
-            raise TextError(token.start, f"expected {what or shown(word)}, found {shown(token.text)}")
+            raise TextError(
+                token.start, f"expected {what or shown(word)}, found {shown(token.text)}", meant(token.text, [word])
+            )
         return token
 
     def expect_end(self) -> None:
@@ -83,7 +85,8 @@ class Scanner:
         known = list(words)
         text = token.text.decode("ascii", "replace")
         if text not in known:
-            raise TextError(token.start, f"expected {what} ({', '.join(known)}), found {shown(token.text)}")
+            problem = f"expected {what} ({', '.join(known)}), found {shown(token.text)}"
+            raise TextError(token.start, problem, meant(text, known))
         return text
 
     def end_of_block(self) -> int:

@@ -238,6 +238,14 @@ def test_a_paste_says_in_the_history_where_to(window: MainWindow) -> None:
     assert window.undo_stack.undoText() == "Paste 2 keys into root.rx"
 
 
+def test_keys_that_find_no_channel_are_not_dropped_without_a_word(window: MainWindow) -> None:
+    lines = [f"elsewhere{n}\t0.0\t{n}.0\t0.0\t0.0\tsmooth\tsmooth\tunified" for n in range(5)]
+    QApplication.clipboard().setText("\n".join(["hermite-keys 1", *lines]))
+    window.actions_by_id["edit.paste"].run()
+    assert window.undo_stack.undoText().startswith("Paste 3 keys into 3 channels")
+    assert window.status.message.text().endswith("for the other 2 there is no unlocked channel")
+
+
 def test_back_and_forward_can_be_chosen_only_where_they_lead_somewhere(qtbot: QtBot, window: MainWindow) -> None:
     back, forward = window.actions_by_id["view.back"], window.actions_by_id["view.forward"]
 

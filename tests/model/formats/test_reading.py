@@ -114,6 +114,25 @@ def test_whatever_is_no_clip_is_refused_in_one_sentence(tmp_path: Path) -> None:
     assert "this is no path" in refusal(Path("a\0b"))
 
 
+MISTYPED = {
+    b"extrapolate constant constant": (b"extrapolate constant constnat", "did you mean 'constant'?"),
+    b"channel {": (b"chanel {", "did you mean 'channel'?"),
+    b"keys 2 {": (b"kyes 2 {", "did you mean 'keys'?"),
+    b"smooth\tsmooth": (b"Smooth\tsmooth", "did you mean 'smooth'?"),
+    b"numchannels": (b"num_channels", "did you mean 'numchannels'?"),
+}
+
+
+@pytest.mark.parametrize(("right", "wrong"), MISTYPED.items())
+def test_a_mistyped_word_is_answered_with_the_nearest_that_is_known(right: bytes, wrong: tuple[bytes, str]) -> None:
+    text = write_bytes(Clip([Channel("channel 0", make_run([0.0, 1.0], [0.0, 1.0]))]), "anim")
+    mistyped = text.replace(right, wrong[0], 1)
+    assert mistyped != text
+    with pytest.raises(FormatError) as caught:
+        read_bytes(mistyped, "walk.anim")
+    assert caught.value.remedy == wrong[1]
+
+
 def test_a_file_beyond_the_budget_is_refused_before_it_is_read(tmp_path: Path) -> None:
     path = tmp_path / "huge.anim"
     with open(path, "wb") as file:
