@@ -174,7 +174,6 @@ class Gesture:
         self._put: list[Change] = []
         self._touched = Touched()  # by the present preview
         self._held: dict[Channel, None] = {}  # the channels that a preview has spliced
-        self._all_read_back = True  # whether slopes in what was put in are those that the channel holds
         self._fresh: dict[Channel, Ids] = {}
 
     def __enter__(self) -> "Gesture":
@@ -249,7 +248,7 @@ class Gesture:
             chosen = selection(self._put) if callable(selection) else selection
         except BaseException:
             self._rewind()
-            self._put, self._touched, self._all_read_back = document._put_all(before, Touched()), told_before, True
+            self._put, self._touched = document._put_all(before, Touched(), read_back=False), told_before
             raise
         self._touched = touched.copy()
         touched.add(told_before)
@@ -324,10 +323,7 @@ class Gesture:
             splice = changes[i]
             assert isinstance(splice, Splice)
             changes[i] = self._with_known_ids(splice, used)
-        spliced = [change.channel for change in changes if isinstance(change, Splice)]
-        # What one splice of a channel has stored can be read when the gesture ends; another would change it.
-        self._all_read_back = len(set(spliced)) < len(spliced)
-        stored = self._document._put_all(changes, touched, new=True, read_back=self._all_read_back)
+        stored = self._document._put_all(changes, touched, new=True, read_back=False)
         for i in asking:
             wanted, got = changes[i], stored[i]
             assert isinstance(wanted, Splice)
@@ -339,9 +335,13 @@ class Gesture:
         return stored
 
     def _read_back(self, change: Change) -> Change:
-        if not isinstance(change, Splice) or self._all_read_back:
+        """*change* with the slopes that the channel has made of it, unless another change has parted its keys."""
+        if not isinstance(change, Splice):
             return change
-        return change._replace(after=change.channel.stored(change.after))
+        try:
+            return change._replace(after=change.channel.stored(change.after))
+        except ValueError:
+            return change
 
     def _with_known_ids(self, splice: Splice, used: dict[Channel, int]) -> Splice:
         known = self._fresh.get(splice.channel)

@@ -56,6 +56,7 @@ class Start:
         self._whole: Whole | None = None
         self._spare: Grids | None = None
         self._keys_moved = False
+        self.ranks_moved = False  # whether rows hold other numbers of keys now
 
     @property
     def left(self) -> bool:
@@ -82,8 +83,6 @@ class Start:
         self._keys_moved |= keys_move
         if self._whole is not None:
             return
-        if keys_move:
-            place0, place1 = 0, rows.width
         at = row0
         while at < row1:
             part = self._part_of[at]
@@ -118,37 +117,35 @@ class Start:
 
     def restore(self, rows: "Rows") -> None:
         """Make *rows* what they were."""
-        whole, parts = self._whole, [self._parts[part] for part in self._written]
-        if self._keys_moved:
-            self._forget_present(rows, parts)
+        whole, keys_moved = self._whole, self._keys_moved
+        stretches = [(self._parts[part], *places) for part, places in self._written.items()]
         if whole is not None:
+            if keys_moved:
+                rows.row_of[rows.id_grid] = -1
             self._spare = rows.grids
             rows.take_over(whole.grids, whole.first, whole.starts)
-        for part, (begin, end) in zip(parts, self._written.values(), strict=True):
-            rows.number_grid[:, part.row0 : part.row1, begin:end] = part.numbers[:, :, begin:end]
-            rows.mark_grid[:, part.row0 : part.row1, begin:end] = part.marks[:, :, begin:end]
-            if begin == 0:
-                rows.starts[part.row0 : part.row1] = part.numbers[0, :, 0].tolist()
-            rows.dirty.update(range(part.row0, part.row1))
-        if self._keys_moved:
-            self._remember_start(rows, parts)
+        elif keys_moved:
+            for part, begin, end in stretches:
+                rows.row_of[rows.id_grid[part.row0 : part.row1, begin:end]] = -1
+        for part, begin, end in stretches:
+            self._put_back(rows, part, begin, end, keys_moved=keys_moved)
+        if keys_moved and whole is not None:
+            rows.row_of[rows.id_grid] = np.arange(rows.rows, dtype=np.int32)[:, None]
+        rows.row_of[0] = -1  # rows without keys hold id 0
+        if self.ranks_moved:
+            rows.first[:], rows.size = self._first, self._size
+            rows.forget_places()
         self._written.clear()
         self._whole = None
-        self._keys_moved = False
+        self._keys_moved = self.ranks_moved = False
 
-    def _forget_present(self, rows: "Rows", parts: list[Part]) -> None:
-        if self._whole is not None:
-            rows.row_of[rows.id_grid] = -1
-            return
-        for part in parts:
-            rows.row_of[rows.id_grid[part.row0 : part.row1]] = -1
-
-    def _remember_start(self, rows: "Rows", parts: list[Part]) -> None:
-        rows.first[:], rows.size = self._first, self._size
-        rows.forget_places()
-        for part in parts:
-            rows.id_grid[part.row0 : part.row1] = part.ids
-        stretches = [(part.row0, part.row1) for part in parts] if self._whole is None else [(0, rows.rows)]
-        for row0, row1 in stretches:
-            rows.row_of[rows.id_grid[row0:row1]] = np.arange(row0, row1, dtype=np.int32)[:, None]
-        rows.row_of[0] = -1  # rows without keys hold id 0
+    def _put_back(self, rows: "Rows", part: Part, begin: int, end: int, *, keys_moved: bool) -> None:
+        here = np.s_[part.row0 : part.row1, begin:end]
+        rows.number_grid[:, *here], rows.mark_grid[:, *here] = part.numbers[..., begin:end], part.marks[..., begin:end]
+        if keys_moved:
+            ids = part.ids[:, begin:end]
+            rows.id_grid[here] = ids
+            rows.row_of[ids] = np.arange(part.row0, part.row1, dtype=np.int32)[:, None]
+        if begin == 0:
+            rows.starts[part.row0 : part.row1] = part.numbers[0, :, 0].tolist()
+        rows.dirty.update(range(part.row0, part.row1))

@@ -94,6 +94,8 @@ class Rows:
 
     def forget_places(self) -> None:
         """`first` has changed, and so has what was found from it."""
+        if self.start is not None:
+            self.start.ranks_moved = True
         self.row_known = (0, -1, 0)  # the ranks that the row found last begins with and ends before, and that row
         self.blocks_known: dict[tuple[int, int], list[Block]] = {}
 

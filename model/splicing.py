@@ -19,7 +19,7 @@ ID_GAP = 1 << 24
 # Keys checked or rebuilt at a time: their columns stay in the processor's cache.
 AT_A_TIME = 8192
 # Up to so many keys are rebuilt in Python numbers, which is quicker than numpy on short columns.
-FEW = 6
+FEW = 8
 # From so many ids on, a flag for every id that ever was is quicker than sets.
 MANY = 1000
 
@@ -92,7 +92,7 @@ class Given(NamedTuple):
 
 def check_run(run: Run, time_before: float, time_after: float) -> Given:
     """Raise ValueError, naming key and field, unless *run* can stand between keys of these times."""
-    if len(run) <= FEW:
+    if len(run) <= 2 * FEW:
         return _check_few(run, time_before, time_after)
     minus_zero = slopes = False
     last = time_before
