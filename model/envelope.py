@@ -5,6 +5,7 @@ turns, each block of spans the lowest and highest of its spans. A column is then
 spans that its edges cut, and the spans and blocks between.
 """
 
+from itertools import batched
 from typing import NamedTuple
 
 import numpy as np
@@ -34,12 +35,14 @@ class Extremes:
         """Work out anew the rows from slot0 to slot1 that have changed."""
         row0, row1 = slot0 // rows.width, slot1 // rows.width + 1
         stale = sorted(rows.dirty.intersection(range(row0, row1)) if len(rows.dirty) > 1 else rows.dirty)
-        for row, end in _neighbouring(stale):
-            part = slice(row * rows.width, end * rows.width)
-            self.low[part], self.high[part] = _span_ranges(rows, part)
-            blocks = slice(part.start // self.block, part.stop // self.block)
-            self.block_low[blocks] = self.low[part].reshape(-1, self.block).min(axis=1)
-            self.block_high[blocks] = self.high[part].reshape(-1, self.block).max(axis=1)
+        for few in batched(stale, AT_A_TIME):
+            some = np.array(few)
+            low, high = _span_ranges(rows, some)
+            self.low.reshape(-1, rows.width)[some], self.high.reshape(-1, rows.width)[some] = low, high
+            in_blocks = (len(some), -1, self.block)
+            blocks = (-1, rows.width // self.block)
+            self.block_low.reshape(blocks)[some] = low.reshape(in_blocks).min(axis=2)
+            self.block_high.reshape(blocks)[some] = high.reshape(in_blocks).max(axis=2)
         rows.dirty.difference_update(stale)
 
     def between(self, starts: Slots, ends: Slots) -> Range:
@@ -65,31 +68,22 @@ class Extremes:
         return low, high
 
 
-def _neighbouring(rows: list[int]) -> list[tuple[int, int]]:
-    """Sorted row numbers as (first, end) of neighbours, at most AT_A_TIME in a group."""
-    groups: list[tuple[int, int]] = []
-    for row in rows:
-        if groups and groups[-1][1] == row and row - groups[-1][0] < AT_A_TIME:
-            groups[-1] = (groups[-1][0], row + 1)
-        else:
-            groups.append((row, row + 1))
-    return groups
-
-
-def _span_ranges(rows: Rows, part: slice) -> Range:
-    """The ranges over the first keys and the turns of the spans in these slots."""
-    a, b, c, d = (rows.numbers[column, part] for column in (A, B, C, VALUE))
-    low, high = d.copy(), d.copy()
+def _span_ranges(rows: Rows, some: Slots) -> Range:
+    """The ranges over the first keys and the turns of the spans of *some* rows: (rows, width)."""
+    a, b, c, d = (rows.number_grid[column].take(some, axis=0) for column in (A, B, C, VALUE))
+    low, high = d, d.copy()
     with np.errstate(all="ignore"):
         bend = b + 3.0 * a
         # Without a change of sign from slope to slope, or from bend to bend, the curve does not turn.
         turning = ~(c * (c + b + bend) > 0.0) | ((b < 0.0) != (bend < 0.0))
         turning &= (a != 0.0) | (b != 0.0)
-    some = turning.nonzero()[0]
-    if len(some):
-        values = _turns(rows, some + part.start)[1]
-        low[some] = np.fmin(low[some], np.fmin(values[0], values[1]))
-        high[some] = np.fmax(high[some], np.fmax(values[0], values[1]))
+    (turns,) = turning.reshape(-1).nonzero()
+    if len(turns):
+        row, place = np.divmod(turns, rows.width)
+        values = _turns(rows, some.take(row) * rows.width + place)[1]
+        flat_low, flat_high = low.reshape(-1), high.reshape(-1)
+        flat_low[turns] = np.fmin(flat_low.take(turns), np.fmin(values[0], values[1]))
+        flat_high[turns] = np.fmax(flat_high.take(turns), np.fmax(values[0], values[1]))
     return low, high
 
 
