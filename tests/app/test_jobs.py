@@ -245,6 +245,8 @@ def test_a_program_told_to_quit_finishes_its_save(with_large: MainWindow, gate: 
     window, before = with_large, large.read_bytes()
     raise_all(window)
     QTimer.singleShot(0, window.save)
-    QTimer.singleShot(100, lambda: (gate.open(), QApplication.exit(0)))
+    QTimer.singleShot(100, lambda: QApplication.exit(0))
+    threading.Timer(0.4, gate.open).start()
     QApplication.exec()
     assert large.read_bytes() != before
+    assert not window.isWindowModified()

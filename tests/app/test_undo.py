@@ -67,6 +67,30 @@ def test_a_saved_state_that_was_undone_and_overwritten_is_gone(document: Documen
     assert not stack.isClean()
 
 
+def test_an_earlier_state_is_found_to_be_the_saved_one_without_a_drag_noticing(
+    document: Document, stack: UndoStack
+) -> None:
+    document.do("Raise", raised)
+    saved = stack.mark()
+    document.do("Raise", raised)
+    gesture = document.begin("Raise more")
+    gesture.preview(raised)
+    stack.set_saved(saved)
+    assert document.gesture is gesture
+    assert first_value(document) == 3.0
+    gesture.cancel()
+    assert not stack.isClean()
+    stack.undo()
+    assert (first_value(document), stack.isClean()) == (1.0, True)
+
+
+def test_a_state_of_another_clip_is_not_the_saved_one(document: Document, stack: UndoStack) -> None:
+    saved = stack.mark()
+    document.replace(Clip())
+    stack.set_saved(saved)
+    assert not stack.isClean()
+
+
 def test_undo_in_the_middle_of_a_gesture_cancels_the_gesture_first(document: Document, stack: UndoStack) -> None:
     document.do("Raise", raised)
     gesture = document.begin("Raise more")
