@@ -278,7 +278,9 @@ class Canvas(QGraphicsItem):
                 for label in (*before, *stage.labels):
                     left, top, width, height = (side / stage.window.unit for side in label.box)
                     self.repaint(QRectF(left, top, width, height))
-        hint = hint_of(stage)
+        if stage.seen is not None and (stage.seen[0] is not channel or stage.seen[1] < t0 or stage.seen[1] > t1):
+            return  # what was seen has not changed
+        hint = hint_of(stage, (t0, t1))
         if hint != stage.hint:
             stage.hint = hint
             self.repaint_all()

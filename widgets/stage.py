@@ -73,6 +73,8 @@ class Stage:
     base_font: QFont
     labels: tuple[Label, ...] = ()
     hint: str = ""
+    # A channel, and a time at which it is seen in the window.
+    seen: tuple[Channel, float] | None = None
     # Where the handles that have been painted last are, in screen pixels.
     arms: dict[Channel, list[QRectF]] = field(default_factory=dict)
     # How each channel was drawn, and at which revision; shared by the stages of one window.

@@ -1,6 +1,7 @@
 """Names at the lines' ends, none over another; and the words that help when there is nothing to see."""
 
 from collections.abc import Sequence
+from math import inf, nan
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -83,30 +84,40 @@ def draw_labels(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
         painter.drawText(QPointF(left + stage.px(PAD), top + high - descent), label.text)
 
 
-def hint_of(stage: Stage) -> str:
-    """What to say in the middle of an empty picture, "" if there is something to see."""
+def hint_of(stage: Stage, changed: tuple[float, float] = (inf, -inf)) -> str:
+    """What to say in the middle of an empty picture, "" if there is something to see.
+
+    Where something was seen is noted in the stage, best beside the times that are being *changed*.
+    """
+    stage.seen = None
     document, window = stage.document, stage.window
     if not document.clip.channels:
         return "Nothing here yet\nOpen a file with Ctrl+O, or drop one here"
     traces = (*stage.live, *stage.resting)
     if not traces:
         return "All channels are hidden\nAlt+H shows them again"
-    # The first curve in view ends the search: a drag asks this at every step.
-    if any(len(trace.channel) and _seen(trace.channel, window) for trace in traces):
-        return ""
+    # The first curve in view ends the search.
+    for trace in traces:
+        time = _seen_at(trace.channel, window, changed) if len(trace.channel) else None
+        if time is not None:
+            stage.seen = (trace.channel, time)
+            return ""
     if not any(len(trace.channel) for trace in traces):
         return "No keys yet\nCtrl+click sets one, S keys all shown channels at the playhead"
     return "Nothing in view\nPress A to see all"
 
 
-def _seen(channel: Channel, window: Window) -> bool:
-    """Whether any of the curve lies in the window; a few of its values mostly tell, and cost next to nothing."""
-    span = window.t1 - window.t0
-    for part in (0.5, 0.25, 0.75, 0.0, 1.0):
-        if window.v0 <= channel.value(window.t0 + part * span) <= window.v1:
-            return True
+def _seen_at(channel: Channel, window: Window, changed: tuple[float, float]) -> float | None:
+    """A time at which the curve lies in the window, NaN if it is not known which; None if there is none.
+
+    A few of its values mostly tell, and cost next to nothing.
+    """
+    times = [window.t0 + part * (window.t1 - window.t0) for part in (0.5, 0.25, 0.75, 0.0, 1.0)]
+    for time in sorted(times, key=lambda time: changed[0] <= time <= changed[1]):
+        if window.v0 <= channel.value(time) <= window.v1:
+            return time
     low, high = channel.extrema(window.t0, window.t1)
-    return low <= window.v1 and high >= window.v0
+    return nan if low <= window.v1 and high >= window.v0 else None
 
 
 def draw_hint(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
