@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model import evaluation, splicing
+from model import checking, evaluation, splicing
 from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
@@ -277,4 +277,4 @@ class Channel(Curve):
 
     def check(self) -> None:
         """Assert everything that must hold of the list, its rows, slopes and coefficients."""
-        splicing.check(self._rows, self._next_id)
+        checking.check(self._rows, self._next_id)

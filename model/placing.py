@@ -115,11 +115,13 @@ def _in_possible_order(parts: list[tuple[float, float]], removed: Run, rows: Run
     """*parts* in an order in which every key is taken out before it is put in; one part where there is none such."""
     if len(parts) == 1 or not len(removed) or not len(rows):
         return parts
-    kept = np.flatnonzero(rows["id"])
-    _, old, new = np.intersect1d(removed["id"], rows["id"][kept], assume_unique=True, return_indices=True)
-    new = kept[new]
+    times_out, times_in = removed["time"], rows["time"]
+    if len(removed) != len(rows) or not (removed["id"] == rows["id"]).all():
+        kept = np.flatnonzero(rows["id"])
+        _, old, new = np.intersect1d(removed["id"], rows["id"][kept], assume_unique=True, return_indices=True)
+        times_out, times_in = times_out[old], times_in[kept[new]]
     ends = np.array([t1 for _, t1 in parts])
-    out, into = ends.searchsorted(removed["time"][old]), ends.searchsorted(rows["time"][new])
+    out, into = ends.searchsorted(times_out), ends.searchsorted(times_in)
     if (out <= into).all():
         return parts
     if (out >= into).all():

@@ -386,24 +386,3 @@ class Rows:
         self.first[row0 + 1 : row1 + 1] = base + np.cumsum(np.repeat([each + 1, each], [more, row1 - row0 - more]))
         self._store(base, shared)
         return base, base + len(shared)
-
-    def check(self) -> None:
-        """Assert order, counts, links of keys to rows both ways, unique ids, and what the spare slots repeat."""
-        assert self.first[0] == 0
-        assert self.first[-1] == self.size
-        assert len(self.first) == self.rows + 1 == len(self.starts) + 1
-        held = np.diff(self.first)
-        assert self.size == 0 or (held.min() > 0 and held.max() <= self.width)
-        slots = self.slots(np.arange(self.size))
-        assert (np.diff(self.times[slots]) > 0.0).all(), "times are not in order"
-        ids = self.ids[slots]
-        assert len(np.unique(ids)) == self.size, "two keys have one id"
-        assert (ids > 0).all()
-        assert np.array_equal(self.row_of[ids], slots // self.width), "a key does not know its row"
-        assert int((self.row_of >= 0).sum()) == self.size, "a deleted key still has a row"
-        if self.size:
-            real = self.real(np.arange(len(self.ids)))
-            for columns in (self.numbers, self.marks, self.ids[None]):
-                same = columns.tobytes() == columns[:, real].tobytes()
-                assert same, "a spare slot does not repeat its row's last key"
-            assert self.starts == self.number_grid[TIME, :, 0].tolist()

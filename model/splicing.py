@@ -11,7 +11,7 @@ from model import hermite
 from model.extrapolation import EXTRAPOLATIONS, Extrapolation
 from model.hermite import Floats
 from model.keyframe import KEY_DTYPE, KeyGoneError, Run, TangentRule
-from model.rows import D_TIME, NUMBER_FIELDS, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, C, Rows
+from model.rows import NUMBER_FIELDS, SLOPE_IN, SLOPE_OUT, TIME, VALUE, Rows
 from model.tangents import TANGENT_RULES, slope_pair, slopes_of
 
 # How far beyond the ids handed out so far a given id may lie; more is taken for a damaged record.
@@ -23,8 +23,8 @@ FEW = 8
 # From so many ids on, a flag for every id that ever was is quicker than sets.
 MANY = 1000
 
-_IN_RULES = np.array([rule in TANGENT_RULES and rule != TangentRule.STEP for rule in range(256)])
-_OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
+IN_RULES = np.array([rule in TANGENT_RULES and rule != TangentRule.STEP for rule in range(256)])
+OUT_RULES = np.array([rule in TANGENT_RULES for rule in range(256)])
 # Both rules of a key as one number, and what each of the 65536 there can be stands for.
 assert KEY_DTYPE.fields is not None
 _PAIR_OF_RULES = np.dtype(
@@ -32,7 +32,7 @@ _PAIR_OF_RULES = np.dtype(
 )
 _BYTES = np.arange(65536, dtype=np.uint16).view(np.uint8).reshape(-1, 2)
 _UNKNOWN, _BY_RULE, _FIXED = range(3)
-_KIND_OF_PAIR = np.where(_IN_RULES[_BYTES[:, 0]] & _OUT_RULES[_BYTES[:, 1]], _BY_RULE, _UNKNOWN).astype(np.uint8)
+_KIND_OF_PAIR = np.where(IN_RULES[_BYTES[:, 0]] & OUT_RULES[_BYTES[:, 1]], _BY_RULE, _UNKNOWN).astype(np.uint8)
 _KIND_OF_PAIR[(_KIND_OF_PAIR == _BY_RULE) & (_BYTES == TangentRule.FIXED).any(axis=1)] = _FIXED
 
 
@@ -137,7 +137,7 @@ def _check_few(run: Run, last: float, time_after: float) -> Given:
     for place, (time, value, slope_in, slope_out, rule_in, rule_out, _, _) in enumerate(run.tolist()):
         if not (isfinite(time) and isfinite(value) and isfinite(slope_in) and isfinite(slope_out)):
             _refuse_numbers_or_rules(run, 0)
-        if not (_IN_RULES[rule_in] and _OUT_RULES[rule_out]):
+        if not (IN_RULES[rule_in] and OUT_RULES[rule_out]):
             _refuse_numbers_or_rules(run, 0)
         if time <= last:
             raise ValueError(f"key {place}: time {time!r} is not after {last!r}, the time of the key before")
@@ -158,7 +158,7 @@ def _refuse_numbers_or_rules(part: Run, at: int) -> None:
         if not fine.all():
             bad = int(fine.argmin())
             raise ValueError(f"key {at + bad}: {field} is {part[field][bad]}; it must be finite")
-    for field, known in (("rule_in", _IN_RULES), ("rule_out", _OUT_RULES)):
+    for field, known in (("rule_in", IN_RULES), ("rule_out", OUT_RULES)):
         fine = known[part[field]]
         if not fine.all():
             bad = int(fine.argmin())
@@ -344,30 +344,3 @@ def _goes_on_differently(old: tuple[int, int, int], new: tuple[int, int, int], m
     if EXTRAPOLATIONS[mode].repeats:
         return True
     return old != new if mode is Extrapolation.LINEAR else old[1] != new[1]
-
-
-# --- what must always hold
-
-
-def check(rows: Rows, next_id: int) -> None:
-    """Assert that all numbers are finite, and that slopes and coefficients are those that follow from the rules."""
-    rows.check()
-    numbers = rows.columns(0, rows.size)
-    assert np.isfinite(numbers[: SLOPE_OUT + 1]).all(), "a number is not finite"
-    assert (numbers[D_TIME] > 0.0).all()
-    rules_in, rules_out = rows.rules(0, rows.size)
-    assert _IN_RULES[rules_in].all(), "no such rule in"
-    assert _OUT_RULES[rules_out].all(), "no such rule out"
-    assert rows.size == 0 or int(rows.ids.max()) < next_id, "an id will be handed out twice"
-    t, v, slope_in, slope_out = numbers[: SLOPE_OUT + 1]
-    again = np.array(slopes_of(t, v, slope_in, slope_out, rules_in, rules_out))
-    assert again.tobytes() == numbers[SLOPE_IN : SLOPE_OUT + 1].tobytes(), "a slope is not what its rule says"
-    if rows.size:
-        with np.errstate(all="ignore"):
-            d_time = np.append(np.diff(t), 1.0)
-            spans = hermite.coefficients(d_time[:-1], v[:-1], v[1:], slope_out[:-1], slope_in[1:])
-        expected = np.zeros((3, rows.size))
-        expected[:, :-1] = spans
-        expected[:, rules_out == TangentRule.STEP] = 0.0
-        assert d_time.tobytes() == numbers[D_TIME].tobytes(), "a span does not know its length"
-        assert expected.tobytes() == numbers[A : C + 1].tobytes(), "coefficients are not those of the slopes"
