@@ -55,26 +55,31 @@ def local_edits() -> list[Line]:
     return lines
 
 
-def _steps(gesture: Gesture, selection: Selection) -> Callable[[], None]:
+def _steps(gesture: Gesture, selection: Selection, reach: float) -> Callable[[], None]:
+    """Steps of a drag that goes on, each from the gesture's start, to and fro by up to *reach* seconds."""
     amounts = iter(np.linspace(0.0, 3.0, 100_000).tolist())
 
     def step() -> None:
         d_value = next(amounts)
-        gesture.preview(lambda clip: edits.move(clip, selection, 0.003, d_value))
+        d_time = reach * float(np.sin(1000.0 * d_value))
+        gesture.preview(lambda clip: edits.move(clip, selection, d_time, d_value))
 
     return step
 
 
-def drags_of_many() -> list[Line]:
-    """One step of a drag of many keys, without the painting."""
+def drags() -> list[Line]:
+    """One step of a drag, without the painting."""
     channels = [a_channel(1_000, seed, f"c{seed}") for seed in range(20)]
     some = Selection.of({channel: channel.run()["id"][::20] for channel in channels})
     one = a_channel(MANY)
     every = Selection.of({one: one.run()["id"]})
     lines = []
-    for work, clip, selection, rounds, most in (
-        ("a drag step of 1,000 keys over 20 channels, model", Clip(channels), some, 60, 8e-3),
-        ("a drag step of all 1,000,000 keys, model", Clip([one]), every, 7, 60e-3),
+    key = Selection.of({one: [_middle(one)]})
+    for work, clip, selection, reach, rounds, most in (
+        ("a drag step of one key among 1,000,000, model", Clip([one]), key, 0.02, 300, 0.35e-3),
+        ("a drag step of one key past ten neighbours, model", Clip([one]), key, 1.0, 300, 0.35e-3),
+        ("a drag step of 1,000 keys over 20 channels, model", Clip(channels), some, 0.02, 60, 8e-3),
+        ("a drag step of all 1,000,000 keys, model", Clip([one]), every, 1.0, 15, 60e-3),
     ):
         columns = np.zeros((2, selection.count))
 
@@ -83,7 +88,7 @@ def drags_of_many() -> list[Line]:
             columns[1] += 0.01
 
         with Document(clip).begin("Bench") as gesture:
-            taken = timed({"ours": _steps(gesture, selection), "floor": add}, rounds=rounds)
+            taken = timed({"ours": _steps(gesture, selection, reach), "floor": add}, rounds=rounds)
             gesture.preview(lambda clip: [])
         lines.append(Line(work, taken["ours"].median, "numpy adding to two columns", taken["floor"].median, None, most))
     return lines
@@ -115,4 +120,4 @@ def memory() -> list[str]:
 
 def run() -> list[Line]:
     """All figures of editing."""
-    return [*local_edits(), *drags_of_many()]
+    return [*local_edits(), *drags()]

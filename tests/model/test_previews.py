@@ -68,6 +68,7 @@ class Previews(RuleBasedStateMachine):
         clip = self.document.clip
         self.start, self.twin = everything(clip), Clip([channel.copy() for channel in clip.channels], end=10.0)
         self.twin_start = [channel.copy() for channel in clip.channels]
+        self.asked = Selection.of_all(clip.channels)
         self.gesture = self.document.begin("Drag")
         self.shown = self.curves()
 
@@ -92,6 +93,7 @@ class Previews(RuleBasedStateMachine):
             seen.append(everything(given))
             for channel in given.channels:
                 channel.check()
+                self.read(channel)
             return verb(given)
 
         self.gesture.preview(compute, selection=added_keys if selects_new else None)
@@ -103,9 +105,18 @@ class Previews(RuleBasedStateMachine):
             self.sound(channel)
         self.told_enough()
 
+    def read(self, channel: Channel) -> None:
+        """Assert that the same questions are answered by the keys of now, whatever they were answered by before."""
+        run = channel.run()
+        assert channel.keys_between(-1e9, 1e9).tobytes() == run.tobytes()
+        ids = self.asked.ids(channel)
+        if all(key_id in channel for key_id in ids):
+            assert channel.keys_of(ids).tobytes() == run[np.isin(run["id"], ids)].tobytes()
+
     def sound(self, channel: Channel) -> None:
         """Assert that *channel* holds together, and looks like one made of its keys at once."""
         channel.check()
+        self.read(channel)
         anew = Channel(channel.name, channel.run(), pre=channel.pre, post=channel.post)
         edges = np.linspace(-3.0, 18.0, 43)
         for ours, theirs in zip(channel.envelope(edges), anew.envelope(edges), strict=True):
