@@ -195,13 +195,13 @@ IN_A_GESTURE: Final = (User.end_drag, User.move_playhead, User.pan, User.hover, 
 
 @pytest.mark.parametrize("slow", [False, True], ids=["at once", "in slices"])
 @pytest.mark.parametrize("ratio", RATIOS)
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("seed", "keys"), [(0, 9), (1, 9), (2, 48)])
 def test_strips_leave_the_pixels_of_a_full_repaint(
-    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, seed: int, ratio: float, slow: bool
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, seed: int, keys: int, ratio: float, slow: bool
 ) -> None:
     if slow:  # every picture is previewed first, and finished in slices
         monkeypatch.setattr("widgets.backdrop.QUICK", -1.0)
-    view = view_of(sample_clip(seed))
+    view = view_of(sample_clip(seed, keys=keys))
     qtbot.addWidget(view)
     screen = Screen(view, ratio)
     user = User(view, screen, seed)
