@@ -59,6 +59,7 @@ class Curve:
         self.revision = 0  # grows at each change
         self._rows = Rows()
         self._ends: Ends | None = None
+        self._whole_range: tuple[float, float] | None = None  # from the first to the last key
         self._table: Table | None = None
         self._extremes: envelope.Extremes | None = None
         self._hit = _NOWHERE
@@ -74,7 +75,7 @@ class Curve:
 
     def _changed(self) -> None:
         self.revision += 1
-        self._ends = self._table = None
+        self._ends = self._table = self._whole_range = None
         self._hit = _NOWHERE
         self._searched, self._seekable, self._recorded = 0, None, None
         self._times_kept, self._spans_kept = [], [_NOWHERE]
@@ -269,10 +270,16 @@ class Curve:
         """The lowest and highest value over [t0, t1], by default from the first to the last key."""
         if len(self) == 0:
             return 0.0, 0.0
+        whole = t0 is None and t1 is None
+        if whole and self._whole_range is not None:
+            return self._whole_range
         ends = self._the_ends()
         edges = np.array([ends.time0 if t0 is None else t0, ends.time1 if t1 is None else t1])
         lowest, highest = self.envelope(edges)
-        return float(lowest[0]), float(highest[0])
+        found = float(lowest[0]), float(highest[0])
+        if whole:
+            self._whole_range = found
+        return found
 
     def envelope(self, edges: ArrayLike) -> tuple[Floats, Floats]:
         """Lowest and highest value of the curve in each [edges[j], edges[j + 1]], extrapolation included: (n - 1,)."""

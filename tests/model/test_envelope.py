@@ -171,3 +171,19 @@ def test_columns_without_width_or_number(n: int) -> None:
     assert [len(side) for side in channel.envelope([1.0])] == [0, 0]
     low, high = channel.envelope([0.3, 0.3, 0.3])
     assert low.tolist() == high.tolist() == [channel.value(0.3)] * 2
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_extrema_of_the_whole_curve_are_those_of_now_after_every_change(seed: int) -> None:
+    chance = np.random.default_rng(seed)
+    channel = Channel("x", random_run(seed, 30))
+    for _ in range(30):
+        before = channel.run()
+        first, count = int(chance.integers(0, len(before) - 4)), int(chance.integers(1, 4))
+        after = before[first : first + count].copy()
+        if chance.random() < 0.4 or len(before) < 8:
+            after["value"] += chance.normal(size=count) * 10.0
+        channel.splice(before[first : first + count], after[: 0 if chance.random() < 0.2 else count])
+        assert channel.extrema() == channel.copy().extrema()
+        if len(channel) < 8:
+            break
