@@ -8,7 +8,7 @@ from model import edits
 from model.channel import Channel
 from model.clip import Clip
 from model.clipboard import text_from_keys
-from model.document import Change, added_keys
+from model.document import Change, Splice, added_keys
 from model.keyframe import TangentRule
 from model.selection import Selection
 from tests.model.editing import Record, channel_of, document_of, everything, ids, select, times
@@ -87,6 +87,21 @@ def test_a_preview_that_fails_leaves_the_one_before_in_place() -> None:
     edit = gesture.commit()
     assert edit is not None
     assert everything(document.clip) == shown
+
+
+def test_keys_with_others_between_them_are_no_run_however_often_they_are_asked_for() -> None:
+    channel = channel_of([0.0, 1.0, 2.0, 3.0])
+    document = document_of(channel)
+    apart = select(channel, 1, 3).ids(channel)
+    gesture = document.begin("Move")
+    gesture.preview(lambda clip: edits.move(clip, select(channel, 2), 0.25, 0.0))
+    shown = everything(document.clip)
+    for _ in range(2):
+        with pytest.raises(ValueError, match="not what the channel holds"):
+            gesture.preview(lambda clip: [Splice(channel, channel.keys_of(apart), channel.keys_of(apart))])
+        assert everything(document.clip) == shown
+    gesture.cancel()
+    channel.check()
 
 
 def test_a_key_that_is_landed_on_dims_and_comes_back_when_the_drag_moves_on() -> None:
