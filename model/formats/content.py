@@ -43,10 +43,7 @@ class Content:
     @classmethod
     def of(cls, clip: Clip) -> "Content":
         """What *clip* holds now."""
-        channels = [
-            ChannelContent(c.name, c.run(), Extrapolation(c.pre), Extrapolation(c.post), c.unit, c.color, c.locked)
-            for c in clip.channels
-        ]
+        channels = [ChannelContent(c.name, c.run(), c.pre, c.post, c.unit, c.color, c.locked) for c in clip.channels]
         return cls(float(clip.start), float(clip.end), channels, float(clip.frame_rate), clip.title)
 
     def clip(self, report: Report = unheard) -> Clip:
