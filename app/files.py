@@ -14,20 +14,17 @@ from app.clip_file import (
     Saved,
     display_name,
     open_clip,
-    read_regular,
     save_clip,
     version_since,
 )
 from app.file_menus import SAMPLES_FOLDER
+from app.naming import name_channels
 from app.questions import Answer, home_folder
 from app.undo import Mark
 from model.channel import Channel
 from model.clip import Clip
-from model.document import Setting
 from model.formats import FORMATS, FormatError, Loss, format_of_path
 from model.formats.content import Content
-from model.formats.error import TextError
-from model.formats.skel import channel_names, channel_units, joint_names
 from model.progress import CancelledError, Report
 from model.saving import Durability, SaveError
 
@@ -142,36 +139,12 @@ class Files(QObject):
 
     def name_channels(self, skeleton: str) -> bool:
         """Name the channels by the joints of a .skel, as one step that can be undone."""
-        clip = self._window.document.clip
-        try:
-            data = read_regular(skeleton)
-            joints = joint_names(data)
-        except TextError as fault:
-            return self._refuse_skeleton(skeleton, str(fault.in_file(skeleton, data)))
-        except OSError as error:
-            return self._refuse_skeleton(skeleton, f"{skeleton}: {error.strerror or error}")
-        names, units = channel_names(joints), channel_units(3 + 3 * len(joints))
-        if len(names) != len(clip.channels):
-            problem = f"it has {len(joints)} joints, that is {len(names)} channels; the clip has {len(clip.channels)}"
-            return self._refuse_skeleton(skeleton, problem)
-        self._window.document.do(
-            f"Name channels by {display_name(skeleton)}",
-            lambda clip: [
-                Setting(channel, field, getattr(channel, field), value)
-                for channel, name, unit in zip(clip.channels, names, units, strict=True)
-                for field, value in (("name", name), ("unit", unit))
-            ],
-        )
-        return True
+        return name_channels(self._window, skeleton)
 
     def ask_and_name_channels(self) -> bool:
         """Name the channels by a .skel that the user chooses."""
         skeleton = self._window.questions.skeleton_to_open(self._folder())
         return bool(skeleton) and self.name_channels(skeleton)
-
-    def _refuse_skeleton(self, skeleton: str, problem: str) -> bool:
-        self._window.questions.tell_error(f"{display_name(skeleton)} does not name these channels", problem)
-        return False
 
     # --- saving
 
