@@ -74,8 +74,9 @@ def _fill(
     from model.formats import FormatError
 
     opened, problem, advice = None, "", ""
+    late = path if path and first_picture is None and _is_large(path) else None
     try:
-        opened = open_clip(path or str(FIRST_SAMPLE), skel)
+        opened = None if late else open_clip(path or str(FIRST_SAMPLE), skel)
     except FormatError as error:
         problem, advice = str(error), error.advice
     try:
@@ -89,8 +90,20 @@ def _fill(
         QApplication.exit(2)
     elif problem:
         QTimer.singleShot(0, window, partial(window.questions.tell_error, "The clip cannot be opened", advice))
+    elif late:
+        QTimer.singleShot(0, window, partial(window.files.open, late, skel))
     elif first_picture is not None:
         FirstPaint(window.view.viewport(), partial(first_picture, window))
+
+
+def _is_large(path: str) -> bool:
+    """Whether the file is better read on another thread, behind a window that answers."""
+    from app.files import FEW_BYTES
+
+    try:
+        return os.path.getsize(path) > FEW_BYTES
+    except OSError:
+        return False  # what is wrong is found at once
 
 
 class FirstPaint(QObject):

@@ -6,7 +6,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from model.channel import Channel
+from model.clip import Clip
+from model.formats import write_bytes
+from model.keyframe import make_run
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -24,9 +30,32 @@ sys.exit(run_window(sys.argv[1] or None, None, first_picture=first_picture))
 """
 
 
+# Runs the program on a file and tells what is to be seen until the file is open.
+LATE = """
+import sys
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+from app.main_window import MainWindow, run_window
+
+seen = []
+
+def look():
+    window = next(w for w in QApplication.topLevelWidgets() if isinstance(w, MainWindow))
+    if window.ready and window.jobs.job is not None:
+        seen.append(window.jobs.job.text)
+    if window.ready and window.files.path:
+        print(seen[:1], window.document.clip.key_count, flush=True)
+        window.close()
+    else:
+        QTimer.singleShot(1, look)
+
+sys.exit(run_window(sys.argv[1], None, first_frame=look))
+"""
+
+
 def run(path: str, then: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-c", PROGRAM.format(then=then), path],
+        [sys.executable, "-c", LATE if then == "late" else PROGRAM.format(then=then), path],
         cwd=ROOT,
         env={**os.environ, "QT_QPA_PLATFORM": "offscreen"},
         capture_output=True,
@@ -40,6 +69,14 @@ def test_without_a_file_a_sample_opens_that_belongs_to_nobody() -> None:
     done = run("", "window.close()")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout == "bounce[*] — Hermite |  | ball.tx\n"
+
+
+def test_a_large_file_is_read_behind_a_window_that_answers(tmp_path: Path) -> None:
+    path = tmp_path / "large.anim"
+    path.write_bytes(write_bytes(Clip([Channel("c", make_run(np.arange(60_000.0), 0.25))]), "anim"))
+    done = run(str(path), "late")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "['Opening large.anim'] 60000\n"
 
 
 def test_a_file_that_cannot_be_read_is_one_sentence_and_code_2(tmp_path: Path) -> None:
