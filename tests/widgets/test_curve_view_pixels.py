@@ -195,7 +195,7 @@ IN_A_GESTURE: Final = (User.end_drag, User.move_playhead, User.pan, User.hover, 
 
 @pytest.mark.parametrize("slow", [False, True], ids=["at once", "in slices"])
 @pytest.mark.parametrize("ratio", RATIOS)
-@pytest.mark.parametrize(("seed", "keys"), [(0, 9), (1, 9), (2, 48)])
+@pytest.mark.parametrize(("seed", "keys"), [(0, 9), (1, 9), (2, 48), (12, 9)])
 def test_strips_leave_the_pixels_of_a_full_repaint(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, seed: int, keys: int, ratio: float, slow: bool
 ) -> None:

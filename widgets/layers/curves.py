@@ -70,12 +70,13 @@ def draw_line(
     """One chain, dashed if there is a pattern (in logical pixels)."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
     pen = hair(color)
-    if not pattern:
-        painter.setPen(pen)
-        draw_chain(painter, line, width)
-        return
+    # Qt makes room for other ends by moving the whole first and last piece up to half a pixel: a part of a chain
+    # would then look otherwise than in the whole.
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(pen)
+    if not pattern:
+        draw_chain(painter, line, width)
+        return
     scaled = tuple(part * window.unit for part in pattern)
     draw_lines(painter, dashes(line, scaled, window.top - REACH, window.bottom + REACH), width)
 

@@ -29,6 +29,8 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     window = stage.window
     sides: list[tuple[Trace, bool, float, float]] = []
     rays: dict[int, Ray] = {}
+    # A dash that is cut here must lie beside what is painted: its slope is not quite that of the whole one.
+    reach = REACH + DASH[0] * window.unit
     for trace in traces:
         ends = trace.channel.ends()
         if ends is None:
@@ -40,7 +42,7 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
                 continue
             slope = slope_outside(trace.channel, after=after)
             if slope is not None:
-                seen = (max(x0 - REACH, edge), x1 + REACH) if after else (x0 - REACH, min(x1 + REACH, edge))
+                seen = (max(x0 - reach, edge), x1 + reach) if after else (x0 - reach, min(x1 + reach, edge))
                 ray = _ray(window, slope, edge, value, seen)
                 if ray is None:
                     continue
