@@ -1,38 +1,15 @@
 """StatusRow: the bottom line of the window: transport, progress, messages, what is selected, what the mouse does."""
 
 from PySide6.QtCore import QSize, Qt, QTimer
-from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QWidget
 
 from widgets.guard import guarded
+from widgets.quiet_label import QuietLabel
 
 MESSAGE_MILLISECONDS = 6000
 # Message, selection and hint are read comfortably in so many pixels.
 WIDTH_FOR_WORDS = 620
-
-
-class ElidedLabel(QLabel):
-    """One line of plain text that gives up its end, marked by …, when there is no room; the tooltip has all of it."""
-
-    def __init__(self, align: Qt.AlignmentFlag, *, yields: bool) -> None:
-        """One that *yields* takes what the others leave; else it asks for as much as its text needs."""
-        super().__init__()
-        self.setTextFormat(Qt.TextFormat.PlainText)
-        self.setAlignment(align | Qt.AlignmentFlag.AlignVCenter)
-        across = QSizePolicy.Policy.Ignored if yields else QSizePolicy.Policy.Preferred
-        self.setSizePolicy(across, QSizePolicy.Policy.Preferred)
-
-    @guarded(QSize(0, 0))
-    def minimumSizeHint(self) -> QSize:
-        return QSize(0, super().minimumSizeHint().height())
-
-    @guarded()
-    def paintEvent(self, event: QPaintEvent) -> None:
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
-        self.setToolTip(self.text() if text != self.text() else "")
-        place, palette = int(self.alignment()), self.palette()
-        with QPainter(self) as painter:
-            self.style().drawItemText(painter, self.rect(), place, palette, True, text, self.foregroundRole())
 
 
 class StatusRow(QWidget):
@@ -42,14 +19,13 @@ class StatusRow(QWidget):
         """*width* is what it will have at first, so that the first picture is not laid out twice."""
         super().__init__()
         self._transport = transport
-        self.message = ElidedLabel(Qt.AlignmentFlag.AlignLeft, yields=False)
+        self.message = QuietLabel()
         self.message.setObjectName("message")
         self.message.setAccessibleName("Message")
         self.message.hide()  # what is empty leaves its room to the others
-        self.selection = QLabel()
+        self.selection = QuietLabel()
         self.selection.setObjectName("selection_summary")
-        self.selection.setTextFormat(Qt.TextFormat.PlainText)
-        self.hint = ElidedLabel(Qt.AlignmentFlag.AlignRight, yields=True)
+        self.hint = QuietLabel(align=Qt.AlignmentFlag.AlignRight, yields=True)
         self.hint.setObjectName("mouse_hint")
         self.hint.setAccessibleName("What the mouse does here")
         self.hint.hide()
@@ -67,6 +43,7 @@ class StatusRow(QWidget):
         self._rows.addLayout(line, 1)
         self._arrange(width)
         self._tip = self._mouse_hint = ""
+        self._alone = False
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._clear_message)
@@ -98,7 +75,9 @@ class StatusRow(QWidget):
     def _place_selection(self) -> None:
         """At the left while nothing stands beside it."""
         alone = self.message.isHidden() and self.hint.isHidden()
-        self._line.setStretchFactor(self.selection, 1 if alone else 0)
+        if alone != self._alone:  # to be told the same again has everything laid out anew
+            self._alone = alone
+            self._line.setStretchFactor(self.selection, int(alone))
 
     def _clear_message(self) -> None:
         self.say("")

@@ -11,7 +11,7 @@ from model.document import Document
 from model.extrapolation import EXTRAPOLATIONS, Extrapolation
 from model.labels import counted
 from widgets.channel_verbs import rename, settings
-from widgets.form import DimLabel, Heading, QuietCombo, form_grid
+from widgets.form import DimText, Heading, QuietCombo, form_grid
 from widgets.numbers import factor_of, shown, suffix_of
 from widgets.theme import Theme
 
@@ -36,7 +36,7 @@ class ChannelSection(QWidget):
         self.unit = QuietCombo("Unit", self)
         self._unit_line = QLineEdit(self)
         self.modes: dict[str, QuietCombo] = {}
-        self.facts = DimLabel(theme, "", self)
+        self.facts = DimText(theme, self)
         body = QWidget(self)
         self._grid = form_grid(body)
         self._set_up_name()
@@ -55,7 +55,7 @@ class ChannelSection(QWidget):
         channel = self._document.session.active
         for widget in (self.name, self.unit, *self.modes.values()):
             widget.setEnabled(channel is not None)
-        self.heading.detail.say("none active" if channel is None else "locked" if channel.locked else "")
+        self.heading.detail.setText("none active" if channel is None else "locked" if channel.locked else "")
         if not self.name.isModified():
             text = "" if channel is None else channel.name
             if text != self.name.text():

@@ -18,16 +18,30 @@ from PySide6.QtWidgets import (
 
 from widgets.colors import mix
 from widgets.guard import guarded
+from widgets.quiet_label import QuietLabel
 from widgets.theme import ICON_SIZE, Theme
 
 WIDEST_LABEL: Final = "Slope out "  # so that the fields of all sections begin at one line
 
 
-class DimLabel(QLabel):
-    """Words that explain, less loud than the rest."""
+class DimLabel(QuietLabel):
+    """A few words that explain, less loud than the rest."""
 
     def __init__(self, theme: Theme, text: str = "", parent: QWidget | None = None) -> None:
         super().__init__(text, parent)
+        self._theme = theme
+        theme.theme_changed.connect(self._dim)
+        self._dim()
+
+    def _dim(self) -> None:
+        dim(self, self._theme)
+
+
+class DimText(QLabel):
+    """As DimLabel, of several lines."""
+
+    def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._theme = theme
         self.setTextFormat(Qt.TextFormat.PlainText)  # names of channels are no markup
         theme.theme_changed.connect(self._dim)
@@ -39,9 +53,14 @@ class DimLabel(QLabel):
             self.setText(text)
 
     def _dim(self) -> None:
-        palette = QPalette()
-        palette.setColor(QPalette.ColorRole.WindowText, self._theme.text_dim)
-        self.setPalette(palette)
+        dim(self, self._theme)
+
+
+def dim(label: QLabel, theme: Theme) -> None:
+    """Give the words of *label* the dim colour of *theme*."""
+    palette = QPalette()
+    palette.setColor(QPalette.ColorRole.WindowText, theme.text_dim)
+    label.setPalette(palette)
 
 
 class Heading(QWidget):

@@ -64,10 +64,10 @@ class KeySection(QWidget):
     def refresh(self) -> None:
         """Show the selected keys as they are now."""
         selection = self._document.session.selection
-        self.heading.detail.say(keys_text(selection) if selection else "nothing selected")
+        self.heading.detail.setText(keys_text(selection) if selection else "nothing selected")
         for name, field in self.fields.items():
             field.refresh()
-            self.units[name].say(self._unit_text(name))
+            self.units[name].setText(self._unit_text(name))
         some = bool(selection)
         for side, combo in self.rules.items():
             combo.setEnabled(some)

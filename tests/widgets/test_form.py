@@ -11,7 +11,7 @@ from model.clip import Clip
 from model.document import Document
 from model.keyframe import make_run
 from widgets.channel_tree import ChannelTree
-from widgets.form import DimLabel, PanelButton, QuietCombo
+from widgets.form import DimLabel, DimText, PanelButton, QuietCombo
 from widgets.guard import unguarded
 from widgets.key_inspector import KeyInspector
 from widgets.theme import Theme
@@ -60,9 +60,11 @@ def test_a_combo_box_says_when_its_things_differ(qtbot):
     assert (combo.currentIndex(), combo.placeholderText()) == (-1, "mixed")
 
 
-def test_words_that_explain_follow_the_theme(qtbot):
+@pytest.mark.parametrize("kind", [DimLabel, DimText])
+def test_words_that_explain_follow_the_theme(qtbot, kind):
     theme = Theme("dark")
-    label = DimLabel(theme, "5 keys")
+    label = kind(theme)
+    label.setText("5 keys")
     qtbot.addWidget(label)
     assert label.palette().windowText().color() == theme.text_dim
     theme._set_name("light")

@@ -1,0 +1,80 @@
+"""QuietLabel: words that change all the time and make nobody else move."""
+
+from typing import Final
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+
+from widgets.guard import guarded
+
+# Room is asked for in steps of so many pixels: a label laid out anew has the whole window laid out and painted.
+ROOM_STEP: Final = 24
+
+
+class QuietLabel(QLabel):
+    """One line of plain text that gives up its end, marked by …, when there is no room; the tooltip has all of it.
+
+    A new text is painted, and no more, as long as it needs about the room of the old one. A QLabel would have its
+    window laid out for each, which in a drag costs as much as everything else.
+    """
+
+    def __init__(
+        self,
+        text: str = "",
+        parent: QWidget | None = None,
+        *,
+        align: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignLeft,
+        yields: bool = False,
+    ) -> None:
+        """One that *yields* takes what the others leave; else it asks for as much as its text needs."""
+        super().__init__(parent)
+        self._words, self._yields = "", yields
+        self._room = 0
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setAutoFillBackground(True)  # or all that it stands on is painted with it
+        self.setAlignment(align | Qt.AlignmentFlag.AlignVCenter)
+        across = QSizePolicy.Policy.Ignored if yields else QSizePolicy.Policy.Preferred
+        self.setSizePolicy(across, QSizePolicy.Policy.Preferred)
+        self.setText(text)
+
+    @guarded("")
+    def text(self) -> str:
+        """All of the text, whatever is to be seen of it."""
+        return self._words
+
+    @guarded()
+    def setText(self, text: str) -> None:
+        """Show *text*."""
+        if text == self._words:
+            return
+        self._words = text
+        self.setAccessibleDescription(text)
+        room = self._needed()
+        if not self._yields and room != self._room:
+            self._room = room
+            self.updateGeometry()
+        self.update()
+
+    def _needed(self) -> int:
+        words = self.fontMetrics().horizontalAdvance(self._words)
+        return -(-words // ROOM_STEP) * ROOM_STEP
+
+    @guarded(QSize(0, 0))
+    def sizeHint(self) -> QSize:
+        return QSize(self._needed(), super().sizeHint().height())
+
+    @guarded(QSize(0, 0))
+    def minimumSizeHint(self) -> QSize:
+        return QSize(0, super().minimumSizeHint().height())
+
+    @guarded()
+    def paintEvent(self, event: QPaintEvent) -> None:
+        text = self.fontMetrics().elidedText(self._words, Qt.TextElideMode.ElideRight, self.width())
+        tip = self._words if text != self._words else ""
+        if tip != self.toolTip():
+            self.setToolTip(tip)
+        place, palette = int(self.alignment()), self.palette()
+        with QPainter(self) as painter:
+            enabled = self.isEnabled()
+            self.style().drawItemText(painter, self.rect(), place, palette, enabled, text, self.foregroundRole())
