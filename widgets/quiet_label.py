@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
@@ -30,7 +30,7 @@ class QuietLabel(QLabel):
         """One that *yields* takes what the others leave; else it asks for as much as its text needs."""
         super().__init__(parent)
         self._words, self._yields = "", yields
-        self._room = 0
+        self._wide = self._room = 0
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setAutoFillBackground(True)  # or all that it stands on is painted with it
         self.setAlignment(align | Qt.AlignmentFlag.AlignVCenter)
@@ -50,19 +50,25 @@ class QuietLabel(QLabel):
             return
         self._words = text
         self.setAccessibleDescription(text)
-        room = self._needed()
+        self._measure()
+        self.update()
+
+    def _measure(self) -> None:
+        self._wide = self.fontMetrics().horizontalAdvance(self._words)
+        room = -(-self._wide // ROOM_STEP) * ROOM_STEP
         if not self._yields and room != self._room:
             self._room = room
             self.updateGeometry()
-        self.update()
 
-    def _needed(self) -> int:
-        words = self.fontMetrics().horizontalAdvance(self._words)
-        return -(-words // ROOM_STEP) * ROOM_STEP
+    @guarded()
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._measure()
 
     @guarded(QSize(0, 0))
     def sizeHint(self) -> QSize:
-        return QSize(self._needed(), super().sizeHint().height())
+        return QSize(self._room, super().sizeHint().height())
 
     @guarded(QSize(0, 0))
     def minimumSizeHint(self) -> QSize:
@@ -70,8 +76,9 @@ class QuietLabel(QLabel):
 
     @guarded()
     def paintEvent(self, event: QPaintEvent) -> None:
-        text = self.fontMetrics().elidedText(self._words, Qt.TextElideMode.ElideRight, self.width())
-        tip = self._words if text != self._words else ""
+        text, tip = self._words, ""
+        if self._wide > self.width():
+            text, tip = self.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, self.width()), text
         if tip != self.toolTip():
             self.setToolTip(tip)
         place, palette = int(self.alignment()), self.palette()

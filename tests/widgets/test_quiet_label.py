@@ -56,6 +56,16 @@ def test_a_longer_text_gets_its_room(row):
     assert label.toolTip() == ""
 
 
+def test_a_larger_font_gets_more_room(row):
+    label = QuietLabel("words that are read")
+    row.layout().addWidget(label)
+    before = label.sizeHint().width()
+    font = label.font()
+    font.setPointSize(3 * font.pointSize())
+    label.setFont(font)
+    assert label.sizeHint().width() > 2 * before
+
+
 def test_what_does_not_fit_is_in_the_tooltip(row):
     label = QuietLabel("more words than this narrow window has room for, whatever the font is " * 3)
     row.layout().addWidget(label)
