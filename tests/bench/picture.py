@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterator
 from itertools import cycle
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -11,6 +13,8 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QStackedWidget, QWidget
 
+from app.main_window import MainWindow
+from app.settings import Settings
 from model import edits
 from model.channel import Channel
 from model.clip import Clip
@@ -60,11 +64,16 @@ class Shown(NamedTuple):
 
 def shown(stack: QStackedWidget, clip: Clip, keys_in_view: int | None) -> Shown:
     """The view on a clip: all of it, or around the middle key."""
-    document = Document(clip)
-    view = CurveView(document, Theme.current())
+    view = CurveView(Document(clip), Theme.current())
     stack.addWidget(view)
     stack.setCurrentWidget(view)
     QApplication.processEvents()
+    return looking_at(view, keys_in_view)
+
+
+def looking_at(view: CurveView, keys_in_view: int | None) -> Shown:
+    """The view on all of its clip, or around the middle key of its middle channel, which is selected."""
+    document, clip = view.document, view.document.clip
     channel = clip.channels[len(clip.channels) // 2]
     run = channel.run()
     middle = len(run) // 2
@@ -178,6 +187,22 @@ def drags(stack: QStackedWidget, clips: dict[str, Clip]) -> list[Line]:
     return lines
 
 
+def drag_in_the_editor(clip: Clip) -> Line:
+    """One key dragged in the whole window: tree, inspector, transport and the line of words follow."""
+    with TemporaryDirectory() as folder:
+        window = MainWindow(settings=Settings(str(Path(folder, "bench.ini"))))
+        window.resize(*SIZE)
+        window.show()
+        window.show_clip(clip)
+        QApplication.processEvents()
+        times = drag_times(looking_at(window.view, 30))
+        window.close()
+        window.deleteLater()
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    work = "a drag step of one key, 200 x 1,000 keys, 30 keys in view"
+    return Line(work, times.median, note="in the whole window", most=2e-3)
+
+
 def drag_of_some(stack: QStackedWidget, clip: Clip) -> Line:
     """A thousand selected keys over twenty channels."""
     scene = shown(stack, clip, None)
@@ -259,6 +284,7 @@ def run() -> list[Line]:
     stack.show()
     clips = {name: make() for name, make in CLIPS.items()}
     lines = drags(stack, clips)
+    lines.append(drag_in_the_editor(clips["200 x 1,000 keys"]))
     lines.append(drag_of_some(stack, clips["200 x 1,000 keys"]))
     lines.append(drag_of_all(stack, clips["1 x 1,000,000 keys"]))
     for name, clip in clips.items():
