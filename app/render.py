@@ -54,6 +54,8 @@ def image_of(
             )
         image = QImage(*size, QImage.Format.Format_RGB32)
         view.viewport().render(image)
+        view.canvas.settle()  # a picture that takes long is begun with what can be drawn at once
+        view.viewport().render(image)
     finally:
         view.close()
         view.deleteLater()

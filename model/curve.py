@@ -273,6 +273,9 @@ class Curve:
         whole = t0 is None and t1 is None
         if whole and self._whole_range is not None:
             return self._whole_range
+        if whole and self._rows.rows == 1:
+            self._whole_range = envelope.whole(self._rows)
+            return self._whole_range
         ends = self._the_ends()
         edges = np.array([ends.time0 if t0 is None else t0, ends.time1 if t1 is None else t1])
         lowest, highest = self.envelope(edges)

@@ -115,6 +115,14 @@ def _turns(rows: Rows, slots: Slots) -> Range:
     return places, values
 
 
+def whole(rows: Rows) -> tuple[float, float]:
+    """The range from the first to the last key of rows that are one only, without what is kept for columns."""
+    keys = slice(0, rows.size - 1)
+    low, high = _span_ranges(rows, np.zeros(1, np.int64))
+    last = float(rows.numbers[VALUE, rows.size - 1])
+    return float(low[0, keys].min(initial=last)), float(high[0, keys].max(initial=last))
+
+
 class Points(NamedTuple):
     """Places on the curve where columns begin or end."""
 

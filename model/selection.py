@@ -69,12 +69,13 @@ def _sorted_ids(ids: ArrayLike) -> Ids:
 class Selection:
     """Keys by channel and id, so that they stay the same keys whatever is edited around them."""
 
-    __slots__ = ("_ids",)
+    __slots__ = ("_count", "_ids")
 
     NONE: ClassVar["Selection"]
 
     def __init__(self, ids: Mapping[Channel, Ids]) -> None:
         self._ids = {channel: column for channel, column in ids.items() if len(column)}
+        self._count = sum(map(len, self._ids.values()))
 
     @classmethod
     def of(cls, ids: Mapping[Channel, ArrayLike]) -> "Selection":
@@ -103,7 +104,7 @@ class Selection:
     @property
     def count(self) -> int:
         """Number of selected keys."""
-        return sum(len(column) for column in self._ids.values())
+        return self._count
 
     def contains(self, channel: Channel, key_id: int) -> bool:
         """Whether this key is selected."""

@@ -1,6 +1,6 @@
 """Backdrop: the picture at rest, kept in a pixmap; moved or scaled at once when the view changes, then drawn anew."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import batched
 from math import floor, hypot
 from time import perf_counter
@@ -18,6 +18,8 @@ from widgets.traces import Trace
 
 # A picture that took no longer than this is drawn anew at once, without a preview.
 QUICK: Final = 0.006
+# What takes longer than this comes in slices even where there is nothing to preview it by, or only what was before.
+LONG: Final = 0.2
 # How long one slice of a slow picture may hold up the mouse.
 SLICE: Final = 0.005
 # Traces drawn between two looks at the clock; together they are quicker.
@@ -121,7 +123,7 @@ class Backdrop:
         """Bring the pixmap as near to the stage as a few milliseconds allow."""
         look = Look.of(stage)
         if self._pixmap is None or self._look is None or self._look.theme != look.theme:
-            self._show(self._drawn(stage))
+            self._begin(stage)
             return
         if self._strips:
             self._draw_strips(stage)
@@ -182,6 +184,15 @@ class Backdrop:
             picture.draw(60.0)
         return picture
 
+    def _begin(self, stage: Stage) -> None:
+        """Show what can be drawn at once, and go on from there."""
+        picture = Picture(stage)
+        picture.draw(LONG)
+        self._show(picture)
+        if not picture.done:
+            self._pixmap = QPixmap(picture.pixmap)  # a copy: from now on both are drawn upon
+            self._exact, self._building = False, picture
+
     def _show(self, picture: Picture) -> None:
         self._pixmap, self._window, self._look = picture.pixmap, picture.window, picture.look
         self._cost = picture.seconds
@@ -201,6 +212,10 @@ class Backdrop:
         if window is None or self._look is None:
             return
         resting = {trace.channel for trace in stage.resting}
+        seconds = self._cost * _strip(window, *_around(self._strips.values())).boundingRect().width() / window.width
+        if seconds > LONG and resting.issuperset(self._strips):
+            self._strips, self._exact = {}, False
+            return
         strips = QRegion()
         for channel, intervals in self._strips.items():
             if channel not in resting:
@@ -252,6 +267,11 @@ class Backdrop:
         traces = tuple(trace for trace in stage.resting if trace.channel in self.contents)
         for rect in iter(bare):  # type: ignore[call-overload]
             self._redraw(stage, QRegion(rect), traces)
+
+
+def _around(intervals: Iterable[Sequence[tuple[float, float]]]) -> tuple[float, float]:
+    """From the first to the last time of all."""
+    return min(t0 for some in intervals for t0, _ in some), max(t1 for some in intervals for _, t1 in some)
 
 
 def _strip(window: Window, t0: float, t1: float) -> QRegion:

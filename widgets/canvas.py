@@ -21,12 +21,12 @@ from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
 from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
-from widgets.layers.labels import hint_of, labels_of
+from widgets.layers.labels import hint_of, labels_of, may_be_named
 from widgets.numbers import is_angle
 from widgets.stage import LABEL_SIZE, Manner, Overlay, Stage, manner_in, sized, unit_of
 from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
-from widgets.traces import Trace, live_channels, traces_of
+from widgets.traces import Crowd, Trace, live_channels, traces_of
 from widgets.words import words_in
 
 if TYPE_CHECKING:
@@ -38,6 +38,8 @@ REACH: Final = LENGTH + 2 * KNOB + 4
 MARK: Final = 2 * SELECTED + 4
 # While the view moves, the picture goes on being refined only so often, in ms.
 PAUSE: Final = 20
+# So often between two paints is looked for something else to be seen, when what was seen is gone.
+MOST_SEARCHES: Final = 8
 
 
 class Canvas(QGraphicsItem):
@@ -54,13 +56,19 @@ class Canvas(QGraphicsItem):
         self._document = document
         self._theme = theme
         self._touched: set[Channel] = set()
+        # All traces, and the same as those at rest and those under the hand.
+        self._every: tuple[Trace, ...] | None = None
         self._traces: tuple[tuple[Trace, ...], tuple[Trace, ...]] | None = None
+        self._crowd = Crowd(())
         self._stage: Stage | None = None
         self._ticks: tuple[Window, bool, tuple[Ticks, Ticks]] | None = None
         self._manners: tuple[Window, dict[Channel, tuple[int, Manner]]] | None = None
         self._selection: Selection | None = None
         self._playhead = document.session.playhead
         self._moving = False
+        # Since the last paint: from where to where the whole height is to be painted, and how often was searched.
+        self._asked = (0, 0)
+        self._searches = 0
         self._timer = QTimer(view)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._refine)
@@ -102,6 +110,7 @@ class Canvas(QGraphicsItem):
         """Paint the exposed part, in the pixels of the screen."""
         device = painter.device()
         ratio = device.devicePixelRatioF() if device is not None else 1.0
+        self._asked, self._searches = (0, 0), 0
         stage = self.stage(ratio)
         exposed = option.exposedRect
         painter.save()
@@ -149,7 +158,10 @@ class Canvas(QGraphicsItem):
         if stage is not None and stage.window == window and self._traces is not None:
             return stage
         if self._traces is None:
-            every = traces_of(self._document, self._theme)
+            if self._every is None:
+                self._every = traces_of(self._document, self._theme)
+                self._crowd = Crowd(trace.channel for trace in self._every)
+            every = self._every
             live = live_channels(self._document, self._touched)
             self._traces = (
                 tuple(trace for trace in every if trace.channel not in live),
@@ -171,6 +183,11 @@ class Canvas(QGraphicsItem):
 
     def restyle(self, *_: object) -> None:
         """Which channels are drawn, or how, has changed."""
+        self._every = None
+        self._regroup()
+
+    def _regroup(self) -> None:
+        """Who is under the hand has changed, or what is selected."""
         self._traces = self._stage = None
         self.repaint_all()
 
@@ -222,6 +239,10 @@ class Canvas(QGraphicsItem):
         x1 = min(max(self._view.x_from_time(t1) + margin, plot.left()), plot.right())
         if x1 > x0:
             left, right = floor(x0), ceil(x1)
+            if self._asked[0] <= left and right <= self._asked[1]:
+                return
+            if right - left > self._asked[1] - self._asked[0]:
+                self._asked = (left, right)
             self._view.viewport().update(QRect(left, floor(plot.top()), right - left, ceil(plot.height()) + 1))
 
     def _on_changed(self, channel: Channel, t0: float, t1: float) -> None:
@@ -230,6 +251,8 @@ class Canvas(QGraphicsItem):
             if self._traces is not None and any(trace.channel is channel for trace in self._traces[0]):
                 # Who is live has changed, but no pixel: it is drawn over the backdrop just as it was in it.
                 self._traces = self._stage = None
+        if self._crowd.changed(channel):
+            self.restyle()
         if self._looks_different(channel):
             t0, t1 = -inf, inf
         self.backdrop.mark(channel, t0, t1)
@@ -272,7 +295,7 @@ class Canvas(QGraphicsItem):
         stage = self._stage
         if stage is None:
             return
-        if t1 >= stage.window.t1:
+        if t1 >= stage.window.t1 and may_be_named(stage, channel):
             before, stage.labels = stage.labels, labels_of(stage)
             if before != stage.labels:
                 for label in (*before, *stage.labels):
@@ -280,6 +303,11 @@ class Canvas(QGraphicsItem):
                     self.repaint(QRectF(left, top, width, height))
         if stage.seen is not None and (stage.seen[0] is not channel or stage.seen[1] < t0 or stage.seen[1] > t1):
             return  # what was seen has not changed
+        self._searches += 1
+        if self._searches > MOST_SEARCHES:  # each may take long: one more before the next paint is enough
+            self._stage = None
+            self.repaint_all()
+            return
         hint = hint_of(stage, (t0, t1))
         if hint != stage.hint:
             stage.hint = hint
@@ -288,11 +316,11 @@ class Canvas(QGraphicsItem):
     def _on_gesture(self) -> None:
         if self._document.gesture is None and self._touched:
             self._touched.clear()
-            self.restyle()
+            self._regroup()
 
     def _on_selection(self) -> None:
         if self._document.session.selection != self._selection:
-            self.restyle()
+            self._regroup()
 
     def _on_replaced(self) -> None:
         self._touched.clear()

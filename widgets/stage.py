@@ -81,6 +81,8 @@ class Stage:
     manners: dict[Channel, tuple[int, Manner]] = field(default_factory=dict)
     # The few selected keys as they were read last.
     readings: dict[Channel, Reading] = field(default_factory=dict)
+    # The channels with keys.
+    filled: set[Channel] = field(init=False)
     # That of the value ruler.
     unit: str = field(init=False)
     _words: dict[float, Words] = field(default_factory=dict)
@@ -88,6 +90,7 @@ class Stage:
 
     def __post_init__(self) -> None:
         self._by_channel = {trace.channel: trace for trace in (*self.resting, *self.live)}
+        self.filled = {channel for channel in self._by_channel if len(channel)}
         self.unit = unit_of(tuple(self._by_channel.values()))
 
     def trace_of(self, channel: Channel) -> Trace | None:

@@ -1,7 +1,7 @@
 """Trace: how one channel is drawn; who is drawn at rest and who under the hand."""
 
 from collections import Counter
-from collections.abc import Set
+from collections.abc import Iterable, Set
 from typing import Final, NamedTuple
 
 from PySide6.QtGui import QColor
@@ -38,6 +38,24 @@ class Trace(NamedTuple):
     def pixels(self, unit: float) -> int:
         """The line's thickness in whole pixels of the screen, 1 to 4."""
         return min(max(round(self.width * unit), 1), 4)
+
+
+class Crowd:
+    """How many keys the shown channels have in all, kept up to date channel by channel."""
+
+    def __init__(self, channels: Iterable[Channel]) -> None:
+        self._counts = {channel: len(channel) for channel in channels}
+        self._count = sum(self._counts.values())
+
+    def changed(self, channel: Channel) -> bool:
+        """Whether there are now so many or so few keys, since the channel has changed, that all look different."""
+        before, after = self._counts.get(channel), len(channel)
+        if before is None or before == after:
+            return False
+        was_soft = self._count <= MOST_SOFT_KEYS
+        self._counts[channel] = after
+        self._count += after - before
+        return was_soft is not (self._count <= MOST_SOFT_KEYS)
 
 
 def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:

@@ -57,6 +57,14 @@ def test_columns_cover_the_curve_and_nothing_more(channel: Channel, start: float
     assert (high <= seen_high + slack + between).all()
 
 
+@given(channels(least=1))
+def test_all_of_a_channel_is_one_column_from_its_first_to_its_last_key(channel: Channel) -> None:
+    ends = channel.ends()
+    assert ends is not None
+    low, high = channel.envelope([ends.time0, ends.time1])
+    assert channel.extrema() == (low[0], high[0])
+
+
 @pytest.mark.parametrize("n", [3, 40, 384, 1500])
 @pytest.mark.parametrize("seed", range(4))
 def test_columns_among_many_keys(n: int, seed: int) -> None:

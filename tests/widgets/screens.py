@@ -58,6 +58,8 @@ class Screen(QObject):
         image = blank(self.view, self.image.devicePixelRatio())
         self._rendering = True
         self.view.viewport().render(image)
+        self.view.canvas.settle()
+        self.view.viewport().render(image)
         self._rendering = False
         return pixels_of(image)
 

@@ -201,6 +201,7 @@ def test_strips_leave_the_pixels_of_a_full_repaint(
 ) -> None:
     if slow:  # every picture is previewed first, and finished in slices
         monkeypatch.setattr("widgets.backdrop.QUICK", -1.0)
+        monkeypatch.setattr("widgets.backdrop.LONG", -1.0)
     view = view_of(sample_clip(seed, keys=keys))
     qtbot.addWidget(view)
     screen = Screen(view, ratio)
@@ -233,4 +234,46 @@ def test_a_key_too_many_changes_the_look_of_the_whole_channel(qtbot: QtBot, most
     view.document.do("Insert", lambda clip: edits.insert(clip, channel, 5.003))
     after = screen.shown()
     assert (before != after)[:, 80:300].any(), "what is far from the new key looks as before"
+    assert (after == screen.painted_anew()).all()
+
+
+def test_names_appear_when_few_enough_channels_have_keys(qtbot: QtBot) -> None:
+    clip = Clip([Channel(f"c{i}", make_run([0.0, 10.0], [i, i + 1.0])) for i in range(27)])
+    view = view_of(clip)
+    qtbot.addWidget(view)
+    screen = Screen(view)
+    before = screen.shown()
+    view.document.do("Delete", lambda clip: edits.delete(clip, Selection.of_all(clip.channels[::9])))
+    after = screen.shown()
+    assert (before != after)[100:, 560:].sum() > 500, "no name at the end of a line"
+    assert (after == screen.painted_anew()).all()
+
+
+def test_something_in_view_ends_the_words_about_nothing_whichever_channel_it_is(qtbot: QtBot) -> None:
+    clip = Clip([Channel(f"c{i}", make_run([0.0, 10.0], [i, i + 1.0])) for i in range(30)])
+    view = view_of(clip)
+    qtbot.addWidget(view)
+    screen = Screen(view)
+    screen.shown()
+    every = Selection.of_all(clip.channels)
+    for channels, rise in ((clip.channels, 1e3), (clip.channels[29:], -1e3), (clip.channels[29:], 1e3)):
+        some = Selection.of({channel: every.ids(channel) for channel in channels})
+        view.document.do("Move", lambda clip, some=some, rise=rise: edits.move(clip, some, 0.0, rise))  # type: ignore[misc]
+        shown = screen.shown()
+        assert bool(view.canvas.stage(1.0).hint) == (rise > 0)
+        assert (shown == screen.painted_anew()).all()
+
+
+def test_one_key_too_many_makes_all_lines_hard(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("widgets.traces.MOST_SOFT_KEYS", 6)
+    channels = [
+        Channel(name, make_run([0.0, 5.0, 10.0], values)) for name, values in (("a", [0, 4, 1]), ("b", [3, 0, 2]))
+    ]
+    view = view_of(Clip(channels))
+    qtbot.addWidget(view)
+    screen = Screen(view)
+    before = screen.shown()
+    view.document.do("Insert", lambda clip: edits.insert(clip, channels[0], 9.0))
+    after = screen.shown()
+    assert (before != after)[:, 80:300].any()
     assert (after == screen.painted_anew()).all()

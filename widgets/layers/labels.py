@@ -51,6 +51,17 @@ def labels_of(stage: Stage) -> tuple[Label, ...]:
     return tuple(found)
 
 
+def may_be_named(stage: Stage, channel: Channel) -> bool:
+    """Whether what has changed of the channel may change a name in the picture."""
+    filled = stage.filled
+    many = len(filled) > MOST
+    if len(channel):
+        filled.add(channel)
+    else:
+        filled.discard(channel)
+    return not many or len(filled) <= MOST or channel is stage.document.session.active
+
+
 def _apart(tops: list[float], high: float, low: float, most: float) -> list[float]:
     """Ascending tops moved as little as it takes to stand below each other between *low* and *most*."""
     tops = [round(top) for top in tops]
