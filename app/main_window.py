@@ -112,6 +112,8 @@ class MainWindow(QMainWindow):
 
     def refresh_actions(self) -> None:
         """Let every action show whether it can run now."""
+        if self.document.working:
+            return
         self.look_at_hand()
         known: dict[Need, bool] = {}
         for action in self.actions_by_id.values():
@@ -218,7 +220,8 @@ class MainWindow(QMainWindow):
         if not self.ready:
             event.accept()
             return
-        self.session.playing = False
+        if not self.document.working:
+            self.session.playing = False
         if not self.files.may_close():
             event.ignore()
             return

@@ -61,6 +61,8 @@ class WindowAction(QAction):
 
     def run(self) -> None:
         """Do it, unless something it needs is missing or a drag is going on."""
+        if self._window.document.working:
+            return
         if self.row.keeps_entry:
             self._window.finish_entry()
         self._window.look_at_hand()

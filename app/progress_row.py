@@ -1,4 +1,4 @@
-"""ProgressRow: what is being opened or saved, how far it is, and the way to stop it; seen only if it takes long."""
+"""ProgressRow: what is being done to a file or to very many keys, how far it is, and the way to stop it."""
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QKeySequence, QShortcut
@@ -50,7 +50,7 @@ class ProgressRow(QWidget):
 
     def stop(self) -> None:
         """Cancel the job under way."""
-        if self._jobs.job is not None:
+        if self._jobs.job is not None and self._jobs.job.stoppable:
             self._jobs.job.cancel()
             self.cancel.setEnabled(False)
 
@@ -69,6 +69,7 @@ class ProgressRow(QWidget):
             text = self._jobs.job.text
             self.text.setText(self.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, TEXT_WIDTH))
             self.bar.setAccessibleDescription(text)
+            self.cancel.setVisible(self._jobs.job.stoppable)
             self._tell_share()
             self._pulse.start(REFRESH_MILLISECONDS)
             self.show()

@@ -26,7 +26,7 @@ class Watcher(QObject):
         self._window = window
         self._in_gesture = False
         # While the mouse is at work shortcuts wait anyway, so what a selection box changes is looked at now and then.
-        self._later = Soon(self, self.refresh)
+        self._later = Soon(self, self.refresh, document=window.document)
         self._listen_to_document()
         self._listen_to_widgets()
 
@@ -59,6 +59,8 @@ class Watcher(QObject):
 
     def refresh(self) -> None:
         """Look at everything again."""
+        if self._window.document.working:
+            return
         if not isValid(self._window):  # the history still tells that it is empty while Qt destroys it with the window
             return
         self._window.refresh_actions()

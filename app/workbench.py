@@ -14,6 +14,7 @@ from app.crash_reports import log_path
 from app.file_menus import RecentMenu, SamplesMenu
 from app.files import Files
 from app.jobs import Jobs
+from app.long_edits import LongEdits
 from app.menus import make_actions, make_menus, make_toolbar, shortcut_text
 from app.progress_row import ProgressRow
 from app.questions import Questions
@@ -113,7 +114,10 @@ def _make_parts(window: "MainWindow") -> None:
     window.inspector = KeyInspector(document, theme)
     window.transport = Transport(document, theme)
     window.crash_bar = CrashBar(str(log_path()))
-    window.status = StatusRow(window.transport, ProgressRow(window.jobs, window), window.width())
+    progress = ProgressRow(window.jobs, window)
+    window.status = StatusRow(window.transport, progress, window.width())
+    document.long_work = LongEdits(window, progress)
+    window.destroyed.connect(partial(setattr, document, "long_work", None))
     middle = QWidget()
     column = QVBoxLayout(middle)
     column.setContentsMargins(0, 0, 0, 0)

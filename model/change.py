@@ -73,6 +73,12 @@ class Edit:
     active_after: Channel | None = None
     replaced: int = 0
 
+    @property
+    def key_count(self) -> int:
+        """How many keys it takes away or puts in, whichever are more."""
+        splices = [change for change in self.changes if isinstance(change, Splice)]
+        return max(sum(len(splice.before) for splice in splices), sum(len(splice.after) for splice in splices))
+
     def inverse(self) -> "Edit":
         """The step back."""
         return Edit(

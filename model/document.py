@@ -1,7 +1,8 @@
 """Document: owns the clip, is the only one to change it, and tells what changed."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Final, Protocol
 
 from model.change import Change, Edit, Membership, Setting, Splice, Touched, check_whole, put, validated
 from model.channel import Channel
@@ -9,10 +10,23 @@ from model.clip import Clip
 from model.event import Event
 from model.gesture import Compute, Gesture, Selecting, added_keys
 from model.labels import label_of
+from model.progress import CancelledError, Report, unheard
 from model.selection import Selection
 from model.session import Session
 
-__all__ = ["Change", "Document", "Edit", "Gesture", "Membership", "Setting", "Splice", "added_keys"]
+__all__ = ["Change", "Document", "Edit", "Gesture", "LongWork", "Membership", "Setting", "Splice", "added_keys"]
+
+# A change of so many keys takes long enough to be left to `Document.long_work`: about 10 ms.
+MANY_KEYS: Final = 30_000
+
+
+class LongWork(Protocol):
+    """Gives the result of *work*, or raises its error, after doing it on another thread while the caller waits.
+
+    *work* may raise CancelledError where it reports, if it is *stoppable*.
+    """
+
+    def __call__[T](self, text: str, work: Callable[[Report], T], *, stoppable: bool) -> T: ...
 
 
 class Document:
@@ -31,33 +45,56 @@ class Document:
         self.clip = Clip() if clip is None else clip
         self.session = Session() if session is None else session
         self.gesture: Gesture | None = None
+        self.long_work: LongWork | None = None
+        self._working = False
         self._at_work = False
+
+    @property
+    def working(self) -> bool:
+        """Whether another thread is changing the clip: until it is told nobody may read keys or begin a change."""
+        return self._working
 
     def begin(self, label: str) -> Gesture:
         """Open a gesture; RuntimeError if one is open, since two cannot both be worked out from their start."""
-        if self.gesture is not None:
-            raise RuntimeError(f"{self.gesture.label!r} is still going on")
+        self._require_rest()
         self.gesture = Gesture(self, label)
         self.gesture_changed.emit()
         return self.gesture
 
-    def do(self, label: str, compute: Compute, *, selection: Selecting = None) -> Edit | None:
-        """Make the changes that *compute* gives as one undo step; None if nothing is different then."""
-        with self.begin(label) as gesture:
-            gesture.preview(compute, selection=selection)
+    def do(self, label: str, compute: Compute, *, selection: Selecting = None, keys: int = 0) -> Edit | None:
+        """Make the changes that *compute* gives as one undo step; None if nothing is different then.
+
+        If *keys*, about as many as it changes, are many, `long_work` runs *compute* and makes the changes; None also
+        if that was cancelled.
+        """
+        try:
+            with self.begin(label) as gesture:
+                if self.long_work is None or keys < MANY_KEYS:
+                    gesture.preview(compute, selection=selection)
+                else:
+                    gesture.tell(self._at_length(label, partial(gesture.make, compute, selection)))
+        except CancelledError:
+            return None
         return gesture.edit
 
     def apply(self, edit: Edit) -> None:
         """Make the changes of an edit that was recorded, and select what was selected after it: undo and redo."""
-        if self.gesture is not None:
-            raise RuntimeError(f"{self.gesture.label!r} is still going on")
+        self._require_rest()
         touched = Touched()
-        self._put_all(edit.changes, touched)
+
+        def work(_report: Report) -> None:
+            self._put_all(edit.changes, touched)
+
+        if self.long_work is None or edit.key_count < MANY_KEYS:
+            work(unheard)
+        else:  # the history goes on to the other side whatever happens here, so that it must come about
+            self._at_length(edit.label, work, stoppable=False)
         active = edit.active_after if edit.active_after is not None else self.session.active
         self._tell(touched, edit.selection_after, active)
 
     def replace(self, clip: Clip) -> None:
         """Edit another clip from now on; an open gesture is cancelled, and the session forgets the old channels."""
+        self._require_told()
         if self.gesture is not None:
             self.gesture.cancel()
         self.clip = clip
@@ -68,8 +105,32 @@ class Document:
         """As "Move 14 keys of root.tx by +0.10 s"."""
         return label_of(verb, selection, d_time, d_value)
 
+    def _require_rest(self) -> None:
+        if self.gesture is not None:
+            raise RuntimeError(f"{self.gesture.label!r} is still going on")
+        self._require_told()
+
+    def _require_told(self) -> None:
+        if self._working:
+            raise RuntimeError("the clip is being changed by another thread")
+
+    def _at_length[T](self, text: str, work: Callable[[Report], T], *, stoppable: bool = True) -> T:
+        """Have *work*, which tells nobody, done by `long_work`."""
+        assert self.long_work is not None
+        self._working = True
+        try:
+            return self.long_work(text, work, stoppable=stoppable)
+        finally:
+            self._working = False
+
     def _put_all(
-        self, changes: Iterable[Change], touched: Touched, *, new: bool = False, read_back: bool = True
+        self,
+        changes: Sequence[Change],
+        touched: Touched,
+        *,
+        new: bool = False,
+        read_back: bool = True,
+        report: Report = unheard,
     ) -> list[Change]:
         """Make all *changes* and return them as stored (see `put`); after an error nothing has changed.
 
@@ -81,6 +142,7 @@ class Document:
         stored: list[Change] = []
         try:
             for change in changes:
+                report(len(stored) / len(changes))
                 stored.append(put(self.clip, validated(change) if new else change, touched, read_back=read_back))
             if new and (touched.membership or touched.settings):
                 check_whole(self.clip, touched)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.keyframe import Run
 from model.labels import counted
+from model.progress import Report, part_of, unheard
 from model.selection import NO_IDS, Ids, Selection, ids_without
 
 if TYPE_CHECKING:
@@ -64,6 +65,13 @@ def _only_deletes(splice: Splice) -> bool:
     return all(np.array_equal(stayed[field], after[field]) for field in ("id", "time"))
 
 
+class News(NamedTuple):
+    """What a preview has brought about and is still to be told, and what is selected then."""
+
+    touched: Touched
+    selection: Selection
+
+
 class Gesture:
     """One change by the user from its begin to commit or cancel; every preview is worked out from the start."""
 
@@ -75,6 +83,7 @@ class Gesture:
         self._active = document.session.active
         self._put: list[Change] = []
         self._touched = Touched()  # by the present preview
+        self._kept: tuple[list[Change], int] | None = None  # what `commit` will find, if that is known
         self._held: dict[Channel, None] = {}  # the channels that a preview has spliced
         self._fresh: dict[Channel, Ids] = {}
 
@@ -141,12 +150,42 @@ class Gesture:
         *selection* is what is selected then (default: what was at the start), without keys that are gone. *label*
         may be a function that is called when the label is read, since hardly one preview's is.
         """
+        self._document._require_told()
+        news = self._put_in(compute, selection)
+        if label is not None:
+            self._label = label
+        self.tell(news)
+
+    def make(self, compute: Compute, selection: Selecting, report: Report) -> News:
+        """Preview and work out what `commit` keeps, telling nobody yet: what of an edit may be done on any thread.
+
+        As if nothing had been after an exception of *report*.
+        """
+        news = self._put_in(compute, selection, part_of(report, 0.0, 0.8))
+        try:
+            report(0.8)
+            self._kept = self._worked_out()
+            report(1.0)
+        except BaseException:
+            self._rewind()
+            self._touched = Touched()
+            raise
+        return news
+
+    def tell(self, news: News) -> None:
+        """Tell everyone what a preview has brought about."""
+        self._document._tell(news.touched, news.selection, self._active_now())
+        self._document.gesture_changed.emit()
+
+    def _put_in(self, compute: Compute, selection: Selecting, report: Report = unheard) -> News:
+        """Put what *compute* gives in the place of the preview before."""
         document = self._require_open()
         before, told_before = self._put, self._touched
         touched = Touched()
         self._rewind()
         try:
-            self._put = self._stored(compute(document.clip), touched)
+            changes = list(compute(document.clip))
+            self._put = self._stored(changes, touched, part_of(report, 0.4, 1.0))
             chosen = selection(self._put) if callable(selection) else selection
         except BaseException:
             self._rewind()
@@ -154,10 +193,7 @@ class Gesture:
             raise
         self._touched = touched.copy()
         touched.add(told_before)
-        if label is not None:
-            self._label = label
-        document._tell(touched, self._without_gone(self._selection if chosen is None else chosen), self._active_now())
-        document.gesture_changed.emit()
+        return News(touched, self._without_gone(self._selection if chosen is None else chosen))
 
     def commit(self) -> Edit | None:
         """Keep the present preview as one edit; None, and nothing is told, if nothing differs from the start.
@@ -165,12 +201,12 @@ class Gesture:
         The label also says how many keys were landed on and are gone.
         """
         document = self._require_open()
-        changes = differing([self._read_back(change) for change in self._put])
+        document._require_told()
+        changes, replaced = self._kept or self._worked_out()
         self._release()
         session = document.session
         document.gesture = None
         if changes:
-            replaced = replaced_keys(changes)
             if replaced:
                 self._label = f"{self.label}, replacing {counted(replaced, 'key')}"
             sides = self._selection, session.selection, self._active, session.active
@@ -180,11 +216,17 @@ class Gesture:
             document.committed.emit(self.edit)
         return self.edit
 
+    def _worked_out(self) -> tuple[list[Change], int]:
+        """What differs from the start, and how many keys gave way to others."""
+        changes = differing([self._read_back(change) for change in self._put])
+        return changes, replaced_keys(changes)
+
     def cancel(self) -> None:
         """As if nothing had been; a gesture that is over stays as it ended."""
         document = self._document
         if not self.open:
             return
+        document._require_told()
         self._rewind()
         self._release()
         document.gesture = None
@@ -202,7 +244,7 @@ class Gesture:
             channel.rewind()
         settings = [change.inverse() for change in reversed(self._put) if not isinstance(change, Splice)]
         self._document._put_all(settings, Touched())
-        self._put = []
+        self._put, self._kept = [], None
 
     def _hold(self, changes: Iterable[Change]) -> None:
         """Let the channels that *changes* splice keep what they overwrite."""
@@ -215,9 +257,8 @@ class Gesture:
         for channel in self._held:
             channel.release()
 
-    def _stored(self, changes: Iterable[Change], touched: Touched) -> list[Change]:
+    def _stored(self, changes: list[Change], touched: Touched, report: Report) -> list[Change]:
         """Put *changes* in; a new key has the same id in every preview, so that a drag can go on holding it."""
-        changes = list(changes)
         self._hold(changes)
         asking = [i for i, change in enumerate(changes) if isinstance(change, Splice) and _asks_for_ids(change.after)]
         used: dict[Channel, int] = {}
@@ -225,7 +266,7 @@ class Gesture:
             splice = changes[i]
             assert isinstance(splice, Splice)
             changes[i] = self._with_known_ids(splice, used)
-        stored = self._document._put_all(changes, touched, new=True, read_back=False)
+        stored = self._document._put_all(changes, touched, new=True, read_back=False, report=report)
         for i in asking:
             wanted, got = changes[i], stored[i]
             assert isinstance(wanted, Splice)

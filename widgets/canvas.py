@@ -213,6 +213,8 @@ class Canvas(QGraphicsItem):
                 self.backdrop.prepare(self._stage)
 
     def _refine(self) -> None:
+        if self._document.working:
+            return
         self._moving = False
         if self._stage is None or not self.backdrop.busy:
             return
@@ -264,7 +266,11 @@ class Canvas(QGraphicsItem):
         """Whether so many keys have come or gone that the whole channel is drawn in another manner."""
         window, manners = self._manners or (None, {})
         before = manners.get(channel)
-        return window is not None and before is not None and before[1] != manner_in(window, channel)
+        if window is None or before is None:
+            return False
+        wholly = None if self._stage is None else self._stage.wholly.get(channel)
+        many = len(self._document.session.selection.ids(channel))
+        return before[1] != manner_in(window, channel) or wholly not in (None, many == len(channel))
 
     def _repaint_change(self, channel: Channel, t0: float, t1: float) -> None:
         """Repaint what has changed of a curve and, if they are few, its handles as painted last and as they are now."""

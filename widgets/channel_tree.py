@@ -34,7 +34,7 @@ class ChannelTree(QWidget):
         self._follows = False  # while the tree itself sets the active channel or is being filled
         self.filter = QLineEdit(self)
         self.view = ChannelView(document, theme, self)
-        self._values = Soon(self, self.view.update_values, least_pause=0.015)
+        self._values = Soon(self, self.view.update_values, least_pause=0.015, document=document)
         self._set_up_filter()
         self._set_up_view()
         layout = QVBoxLayout(self)

@@ -7,7 +7,7 @@ import numpy as np
 import pyqtgraph as pg
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QImage, QPainter, QResizeEvent
 from PySide6.QtWidgets import QGraphicsView, QSizePolicy
 
 from model.channel import Channel
@@ -20,6 +20,7 @@ from widgets.fitting import active_fitted, all_fitted, clip_fitted, selection_fi
 from widgets.graph import DrawnHandle, Frame, Spot
 from widgets.guard import guarded
 from widgets.hit_test import Hit
+from widgets.last_picture import last_picture
 from widgets.layers.handles import handles_of, shown_handles
 from widgets.layers.overlays import DOT
 from widgets.mouse import MouseRouter
@@ -45,6 +46,7 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
     status = Signal(str)
 
     def __init__(self, document: Document, theme: Theme | None = None, parent: Any = None) -> None:
+        self._held: QImage | None = None
         super().__init__(parent=parent, background=None)
         self.document = document
         self.theme = Theme.current() if theme is None else theme
@@ -92,6 +94,9 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
     @guarded(False)
     def viewportEvent(self, event: QEvent) -> bool:
         """Input goes to the mouse router and never to pyqtgraph's scene."""
+        if self._held is not None and event.type() == QEvent.Type.Paint:
+            self._paint_held(self._held)
+            return True
         return self._routed(event) or bool(super().viewportEvent(event))
 
     @guarded(False)
@@ -280,6 +285,26 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
     def _on_membership(self) -> None:
         if self._empty and self.document.clip.channels:
             self._on_replaced()
+
+    # --- while the document is changed by another thread
+
+    def hold(self) -> None:
+        """Go on showing the picture of now, without a look at the document, until `release`."""
+        self._held = last_picture(self.viewport())
+
+    def release(self) -> None:
+        """Show the document as it is again."""
+        self._held = None
+        self.canvas.repaint_all()
+        self.router.look_again()
+
+    def _paint_held(self, picture: QImage) -> None:
+        painter = QPainter(self.viewport())
+        try:
+            painter.fillRect(self.viewport().rect(), self.theme.background)
+            painter.drawImage(0, 0, picture)
+        finally:
+            painter.end()
 
     # --- what belongs to the pointer
 

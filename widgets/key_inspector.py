@@ -28,8 +28,8 @@ class KeyInspector(QScrollArea):
         self.channel = ChannelSection(document, theme)
         self.key.status.connect(self.status)
         self.channel.status.connect(self.status)
-        self._keys_soon = Soon(self, self._refresh_keys)
-        self._channel_soon = Soon(self, self.channel.refresh, least_pause=0.1)
+        self._keys_soon = Soon(self, self._refresh_keys, document=document)
+        self._channel_soon = Soon(self, self.channel.refresh, least_pause=0.1, document=document)
         self._lay_out()
         self._listen()
 

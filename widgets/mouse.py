@@ -1,11 +1,12 @@
 """MouseRouter: raw Qt events drive the chosen tool; hints, the pointer's shape and scrolling at the edge."""
 
 from collections.abc import Callable
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QContextMenuEvent,
+    QGuiApplication,
     QKeyEvent,
     QKeySequence,
     QMouseEvent,
@@ -15,6 +16,7 @@ from PySide6.QtGui import (
 )
 from shiboken6 import isValid
 
+from model.event import Event
 from widgets.graph import Graph
 from widgets.guard import guarded
 from widgets.strokes import State, Strokes
@@ -65,11 +67,22 @@ class MouseRouter(QObject):
     def _listen(self) -> None:
         document, session = self.graph.document, self.graph.document.session
         session.option_changed.connect(self._option_changed)
-        session.selection_changed.connect(self._stale)
         document.clip_replaced.connect(self.cancel)
-        document.changed.connect(self._stale)
+        for event in self._telling():
+            event.connect(self._stale)
         self.graph.view_changed.connect(self._stale)
         self.graph.viewport().destroyed.connect(self.forget)
+
+    def _telling(self) -> "tuple[Event[*tuple[Any, ...]], ...]":
+        """What tells that other things may lie under the pointer, or in the hands of the tool."""
+        document, session = self.graph.document, self.graph.document.session
+        return (
+            document.changed,
+            document.setting_changed,
+            document.membership_changed,
+            session.selection_changed,
+            session.visibility_changed,
+        )
 
     def forget(self) -> None:
         """Stop listening to the document: the view is gone, and the document may live on."""
@@ -78,9 +91,9 @@ class MouseRouter(QObject):
                 timer.stop()
         document, session = self.graph.document, self.graph.document.session
         session.option_changed.disconnect(self._option_changed)
-        session.selection_changed.disconnect(self._stale)
         document.clip_replaced.disconnect(self.cancel)
-        document.changed.disconnect(self._stale)
+        for event in self._telling():
+            event.disconnect(self._stale)
         if document.gesture is not None and self.busy:
             document.gesture.cancel()
 
@@ -239,7 +252,7 @@ class MouseRouter(QObject):
     def _tell(self) -> None:
         """Say what the mouse does here, and shape the pointer for it."""
         tool, point = self.strokes.tool, self._pointer
-        if tool is None or point is None:
+        if tool is None or point is None or self.graph.document.working:
             return
         drag = tool.current
         self._say(drag.hint if drag is not None else tool.hints(tool.hovered, self._modifiers))
@@ -252,6 +265,11 @@ class MouseRouter(QObject):
             self._hint = hint
             self.hint_changed.emit(hint)
 
+    def look_again(self) -> None:
+        """What is held and what lies under the pointer may have changed while nothing was told."""
+        self._modifiers = QGuiApplication.keyboardModifiers()
+        self._stale()
+
     def _stale(self, *_: object) -> None:
         if not self._later.isActive():
             self._later.start()
@@ -261,12 +279,13 @@ class MouseRouter(QObject):
     @guarded()
     def _hover_again(self) -> None:
         """What lies under the pointer may be another thing by now; in a drag it is what was taken."""
-        if not self.busy:
+        if not self.busy and not self.graph.document.working:
             self._again()
 
     @guarded()
     def _refresh(self) -> None:
-        self._shown.refresh()
+        if not self.graph.document.working:
+            self._shown.refresh()
 
     def _option_changed(self, name: str) -> None:
         if name == "tool":

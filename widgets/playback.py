@@ -84,6 +84,8 @@ class Playback(QObject):
 
     def tick(self) -> None:
         """Put the playhead where the clock says it is."""
+        if self._document.working:
+            return
         session, now = self._session, self._clock()
         if session.playhead != self._last:  # somebody moved it: go on from there
             self._anchor = (now, session.playhead)

@@ -6,16 +6,28 @@ from typing import Final
 
 from PySide6.QtCore import QObject, Qt, QTimer
 
+from model.document import Document
+
 LEAST_PAUSE: Final = 0.030  # seconds between two refreshes: the eye reads no number faster
 PAUSE_FOR_WORK: Final = 15.0  # a refresh that took 10 ms is followed by 150 ms without one
 
 
 class Soon(QObject):
-    """Calls *refresh* once, in the next turn of the event loop or after a pause, however often it was asked to."""
+    """Calls *refresh* once, in the next turn of the event loop or after a pause, however often it was asked to.
 
-    def __init__(self, parent: QObject, refresh: Callable[[], None], least_pause: float = LEAST_PAUSE) -> None:
+    One about a *document* waits while that is being changed by another thread.
+    """
+
+    def __init__(
+        self,
+        parent: QObject,
+        refresh: Callable[[], None],
+        least_pause: float = LEAST_PAUSE,
+        document: Document | None = None,
+    ) -> None:
         super().__init__(parent)
         self._refresh = refresh
+        self._document = document
         self._least_pause = least_pause
         self._not_before = 0.0
         self._timer = QTimer(self)
@@ -33,6 +45,9 @@ class Soon(QObject):
 
     def now(self) -> None:
         """Refresh at once, and forget that it was asked for."""
+        if self._document is not None and self._document.working:
+            self._timer.start(int(LEAST_PAUSE * 1000))
+            return
         self._asked = False
         self._timer.stop()
         start = perf_counter()

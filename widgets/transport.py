@@ -76,7 +76,7 @@ class Transport(QWidget):
         self.playback.status.connect(self.status)
         self.buttons: dict[str, QToolButton] = {}
         self.fields: dict[str, ValueField] = {}
-        self._refresh = Soon(self, self._show_numbers)
+        self._refresh = Soon(self, self._show_numbers, document=document)
         self._layout = QHBoxLayout(self)
         self._layout.setContentsMargins(6, 3, 6, 3)
         self._layout.setSpacing(2)

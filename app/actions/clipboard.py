@@ -64,7 +64,7 @@ def _paste(how: Paste, window: "MainWindow") -> None:
         count = sum(int((splice.after["id"] == 0).sum()) for splice in splices)
         places = channels_text(dict.fromkeys(splice.channel for splice in splices))
         label = f"Paste {counted(count, 'key')} into {places}"
-        window.document.do(label, lambda clip: changes, selection=added_keys)
+        window.document.do(label, lambda clip: changes, selection=added_keys, keys=count)
         if count < copied.key_count:
             window.say(f"{label}: for the other {copied.key_count - count} there is no unlocked channel")
     except ValueError as error:
@@ -90,7 +90,7 @@ def _cut(window: "MainWindow") -> None:
 
 def _delete(window: "MainWindow", verb: str = "Delete") -> None:
     selection = window.session.selection
-    window.document.do(label_of(verb, selection), lambda clip: edits.delete(clip, selection))
+    window.document.do(label_of(verb, selection), lambda clip: edits.delete(clip, selection), keys=selection.count)
 
 
 def _duplicate(window: "MainWindow") -> None:
@@ -101,6 +101,7 @@ def _duplicate(window: "MainWindow") -> None:
         label_of("Duplicate", selection, d_time),
         lambda clip: edits.duplicate(clip, selection, d_time),
         selection=added_keys,
+        keys=selection.count,
     )
 
 

@@ -46,7 +46,7 @@ def _nudge_time(frames: float, window: "MainWindow") -> None:
     session, document = window.session, window.document
     selection, reorder = session.selection, session.reorder
     label = label_of("Nudge", selection, d_time=document.clip.time_of(frames))
-    document.do(label, lambda clip: edits.nudge(clip, selection, frames, reorder=reorder))
+    document.do(label, lambda clip: edits.nudge(clip, selection, frames, reorder=reorder), keys=selection.count)
 
 
 def _nudge_value(steps: float, window: "MainWindow") -> None:
@@ -60,7 +60,9 @@ def _nudge_value(steps: float, window: "MainWindow") -> None:
     ]
     label = label_of("Nudge", selection, d_value=parts[0][1] if len(parts) == 1 else 0.0)
     window.document.do(
-        label, lambda clip: [change for part, d_value in parts for change in edits.nudge(clip, part, 0.0, d_value)]
+        label,
+        lambda clip: [change for part, d_value in parts for change in edits.nudge(clip, part, 0.0, d_value)],
+        keys=selection.count,
     )
 
 

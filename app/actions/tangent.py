@@ -31,6 +31,7 @@ def _set_rule(rule: TangentRule, side: str, window: "MainWindow") -> None:
     window.document.do(
         f"Set {keys_text(selection)} to {rule.word}{where}",
         lambda clip: edits.set_rule(clip, selection, rule, side=side),
+        keys=selection.count,
     )
 
 
@@ -44,12 +45,14 @@ def _rules_agree(rule: TangentRule, side: str, window: "MainWindow") -> bool:
 
 def _break(window: "MainWindow") -> None:
     selection = window.session.selection
-    window.document.do(f"Break tangents of {keys_text(selection)}", lambda clip: edits.break_tangents(clip, selection))
+    label = f"Break tangents of {keys_text(selection)}"
+    window.document.do(label, lambda clip: edits.break_tangents(clip, selection), keys=selection.count)
 
 
 def _unify(window: "MainWindow") -> None:
     selection = window.session.selection
-    window.document.do(f"Unify tangents of {keys_text(selection)}", lambda clip: edits.unify_tangents(clip, selection))
+    label = f"Unify tangents of {keys_text(selection)}"
+    window.document.do(label, lambda clip: edits.unify_tangents(clip, selection), keys=selection.count)
 
 
 def _rule_actions(side: str) -> tuple[Action, ...]:
