@@ -2,6 +2,9 @@
 
 from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from model.channel import Channel
 from model.selection import Ids
 
@@ -39,6 +42,14 @@ class Reading(NamedTuple):
     revision: int
     ids: Ids
     keys: tuple[ChosenKey, ...]
+
+
+class Sight(NamedTuple):
+    """What very many selected keys of a channel cover in the window, and when that was looked for."""
+
+    revision: int
+    ids: Ids
+    boxes: NDArray[np.int32]
 
 
 def few_chosen(stage: "Stage", channel: Channel, ids: Ids) -> tuple[ChosenKey, ...]:

@@ -13,7 +13,7 @@ from model.document import Document
 from model.keyframe import Run
 from model.sampling import Window, keys_in
 from model.selection import Ids, Selection
-from widgets.chosen import Reading
+from widgets.chosen import Reading, Sight
 from widgets.graph import Frame
 from widgets.hit_test import Hit
 from widgets.numbers import is_angle
@@ -40,6 +40,8 @@ LABEL_SIZE: Final = 0.88
 # Keys nearer to each other than this on average leave no room for marks, or for dashes, which every key begins anew.
 CROWD: Final = 3.0
 UNDASHED: Final = 4.0
+# With more keys in each pixel column, selected ones are what they cover there.
+MERGED: Final = 4.0
 
 
 class Manner(NamedTuple):
@@ -48,6 +50,7 @@ class Manner(NamedTuple):
     columns: bool
     undashed: bool
     unmarked: bool
+    merged: bool
 
 
 class Label(NamedTuple):
@@ -81,6 +84,9 @@ class Stage:
     manners: dict[Channel, tuple[int, Manner]] = field(default_factory=dict)
     # The few selected keys as they were read last.
     readings: dict[Channel, Reading] = field(default_factory=dict)
+    # What very many selected keys cover, and whether they were all of their channel when they were painted last.
+    sights: dict[Channel, Sight] = field(default_factory=dict)
+    wholly: dict[Channel, bool] = field(default_factory=dict)
     # The channels with keys.
     filled: set[Channel] = field(init=False)
     # That of the value ruler.
@@ -110,7 +116,9 @@ class Stage:
         if window == stage.window:
             return stage
         ticks = ticks_of(window, stage.words(LABEL_SIZE).width, degrees=stage.degrees)
-        return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], manners={})
+        return replace(
+            stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], manners={}, sights={}, wholly={}
+        )
 
     def manner_of(self, channel: Channel) -> Manner:
         """How the channel is to be drawn."""
@@ -157,7 +165,8 @@ class Stage:
 def manner_in(window: Window, channel: Channel) -> Manner:
     """How a window shows a channel."""
     count, width = keys_in(channel, window), window.width
-    return Manner(count > width, count * UNDASHED * window.unit > width, count * CROWD * window.unit > width)
+    dense = count * window.unit
+    return Manner(count > width, dense * UNDASHED > width, dense * CROWD > width, count > width * MERGED)
 
 
 def unit_of(traces: Sequence[Trace]) -> str:

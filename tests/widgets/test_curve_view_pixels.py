@@ -284,3 +284,31 @@ def test_one_key_too_many_makes_all_lines_hard(qtbot: QtBot, monkeypatch: pytest
     after = screen.shown()
     assert (before != after)[:, 80:300].any()
     assert (after == screen.painted_anew()).all()
+
+
+@pytest.mark.parametrize("every", [1, 2], ids=["all", "every other"])
+def test_very_many_selected_keys_are_seen_and_leave_no_stale_pixel(qtbot: QtBot, every: int) -> None:
+    times = np.linspace(0.0, 10.0, 4001)
+    channel = Channel("a", make_run(times, np.sin(times) + times % 0.37))
+    view = view_of(Clip([channel]))
+    qtbot.addWidget(view)
+    screen, document = Screen(view), view.document
+    without = screen.shown()
+    chosen = Selection.of({channel: channel.run()["id"][::every]})
+    document.session.selection = chosen
+    selected = screen.shown()
+    assert (selected != without)[:, 80:].any(axis=0).mean() > 0.8, "most columns show that keys are selected"
+    some = Selection.of({channel: chosen.ids(channel)[100:120]})
+    for compute in (
+        lambda clip: edits.move(clip, some, 0.0, 0.5),
+        lambda clip: edits.insert(clip, channel, 5.003),
+        lambda clip: edits.delete(clip, Selection.of({channel: channel.run()["id"][200:202]})),
+    ):
+        edit = document.do("Edit", compute)
+        assert edit is not None
+        for change in (edit.inverse(), edit):
+            document.session.selection = chosen
+            screen.shown()
+            document.apply(change)
+            document.session.selection = chosen
+            assert (screen.shown() == screen.painted_anew()).all()

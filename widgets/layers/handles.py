@@ -77,6 +77,9 @@ def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace
         if few:
             found += [(trace, each) for each in few_chosen(stage, channel, ids) if t0 <= each.key.time <= t1]
             continue
+        hidden = len(channel) - channel.count_between(t0, t1)
+        if len(ids) - hidden > MOST:  # soon told, however many
+            return []
         seen = selected_between(channel, ids, t0, t1)["id"].tolist()
         if len(found) + len(seen) > MOST:
             return []

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from math import floor
+from math import ceil, floor
 from typing import Final, cast
 
 import numpy as np
@@ -13,9 +13,10 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPixmap, QPolygonF
 from model.channel import Channel
 from model.document import Change, Splice
 from model.keyframe import Run, TangentRule
-from model.sampling import FAR
-from widgets.chosen import MOST, Key, few_chosen, keys_from
-from widgets.painting import draw_marks
+from model.sampling import FAR, Window
+from widgets.chosen import MOST, Key, Sight, few_chosen, keys_from
+from widgets.layers.curves import draw_columns
+from widgets.painting import draw_boxes, draw_marks
 from widgets.stage import Stage, chosen
 from widgets.traces import Trace
 
@@ -27,7 +28,7 @@ SELECTED: Final = 4.6
 CELL: Final = 3.0
 # So many keys are drawn one by one: arrays take longer to set up.
 FEW: Final = 16
-# Of more selected keys of a channel than this, those in the same small cell are one mark, which covers them all.
+# Of more selected keys than this, those in the same small cell are one mark, which covers them all.
 MOST_SELECTED: Final = 20_000
 
 
@@ -104,25 +105,63 @@ def draw_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: floa
 def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """The selected keys of all shown channels, larger and over everything; merged ones hide none."""
     window = stage.window
-    reach = stage.px(SELECTED * 2)
+    reach = stage.px(SELECTED * 2 + CELL)
     t0, t1 = window.time_from_x(x0 - reach), window.time_from_x(x1 + reach)
     color, radius = stage.theme.key_selected, stage.px(SELECTED)
-    few = stage.selection.count <= MOST
-    for trace, ids in stage.chosen:
-        if few:
+    if stage.selection.count <= MOST:
+        for trace, ids in stage.chosen:
             keys = [each.key for each in few_chosen(stage, trace.channel, ids) if t0 <= each.key.time <= t1]
             _draw_few(painter, stage, keys, color, radius)
-            continue
-        run = selected_between(trace.channel, ids, t0, t1)
-        if len(ids) > MOST_SELECTED:
+        return
+    runs = []
+    for trace, ids in stage.chosen:
+        if stage.manner_of(trace.channel).merged:
+            draw_merged(painter, stage, trace, ids, x0, x1)
+        else:
+            runs.append(selected_between(trace.channel, ids, t0, t1))
+    if runs:
+        run = cast("Run", np.concatenate(runs))
+        if stage.selection.count > MOST_SELECTED:
             run = run[one_a_cell(run, stage)]
         _draw_run(painter, stage, run, color, radius)
+
+
+def draw_merged(painter: QPainter, stage: Stage, trace: Trace, ids: NDArray[np.int64], x0: float, x1: float) -> None:
+    """Selected keys that are many in each pixel column, as what they cover there; if they are all, as the curve."""
+    window, channel, color = stage.window, trace.channel, stage.theme.key_selected
+    whole = stage.wholly[channel] = len(ids) == len(channel)
+    if whole:
+        draw_columns(painter, window, trace, color, x0, x1, inside=True)
+        return
+    known = stage.sights.get(channel)
+    if known is None or known.revision != channel.revision or known.ids is not ids:
+        known = stage.sights[channel] = Sight(channel.revision, ids, _covered(channel, ids, window))
+    boxes = known.boxes
+    seen = slice(*boxes[:, 0].searchsorted((floor(x0) - 1, ceil(x1) + 1)).tolist())
+    draw_boxes(painter, color, boxes[seen])
+
+
+def _covered(channel: Channel, ids: NDArray[np.int64], window: Window) -> NDArray[np.int32]:
+    """What the keys with these ids cover of each pixel column: boxes (n, 4), left to right."""
+    run = channel.keys_between(window.t0, window.t1)
+    chosen_ids = np.zeros(int(max(run["id"].max(initial=0), ids[-1])) + 1, np.bool_)
+    chosen_ids[ids] = True
+    (places,) = chosen_ids.take(run["id"]).nonzero()
+    with np.errstate(over="ignore"):
+        x = np.clip(np.floor(window.x_from_time(run["time"].take(places))), -FAR, FAR)
+        y = np.clip(np.floor(window.y_from_value(run["value"].take(places))), -FAR, FAR)
+    if not len(x):
+        return np.empty((0, 4), np.int32)
+    first = np.concatenate(([0], np.flatnonzero(x[1:] != x[:-1]) + 1))
+    left = x.take(first)
+    boxes = (left, np.minimum.reduceat(y, first) - 1.0, left, np.maximum.reduceat(y, first) + 1.0)
+    return np.stack(boxes, axis=1).astype(np.int32)
 
 
 def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """The keys that the gesture under way hides: they come back if it moves on."""
     gesture = stage.document.gesture
-    if gesture is None or all(map(_keeps_keys, gesture.changes)):
+    if gesture is None or gesture.keeps_keys or all(map(_keeps_keys, gesture.changes)):
         return
     for channel, run in gesture.covered.items():
         if stage.trace_of(channel) is not None:
@@ -145,7 +184,7 @@ def selected_between(channel: Channel, ids: NDArray[np.int64], t0: float, t1: fl
         few = channel.keys_of([key_id for key_id in ids.tolist() if key_id in channel])
         return few[(few["time"] >= t0) & (few["time"] <= t1)]
     run = channel.keys_between(t0, t1)
-    return cast("Run", run[chosen(run, ids)])
+    return run if len(ids) == len(channel) else cast("Run", run[chosen(run, ids)])
 
 
 def told_apart(run: Run, stage: Stage) -> NDArray[np.bool_]:
@@ -175,7 +214,7 @@ def few_told_apart(keys: list[Key], stage: Stage) -> list[Key]:
 
 
 def one_a_cell(run: Run, stage: Stage) -> NDArray[np.intp]:
-    """The last key of each small cell of the picture, in the order of time; what lies above or below it is left out."""
+    """The last key of each small cell of the picture, in their order; what lies above or below it is left out."""
     window, cell = stage.window, stage.px(CELL)
     with np.errstate(over="ignore"):
         column = np.floor(run["time"] * (window.px_per_second / cell))
@@ -185,8 +224,8 @@ def one_a_cell(run: Run, stage: Stage) -> NDArray[np.intp]:
     inside = np.flatnonzero((row >= -rim) & (row < high - rim))
     if not len(inside):
         return inside
-    column, row = column[inside] - column[inside[0]], row[inside] + rim
-    last = np.full((int(column[-1]) + 1) * high, -1, np.intp)
+    column, row = column[inside] - column[inside].min(), row[inside] + rim
+    last = np.full((int(column.max()) + 1) * high, -1, np.intp)
     last[(column * high + row).astype(np.intp)] = inside
     return np.sort(last[last >= 0])
 
