@@ -16,7 +16,7 @@ from widgets.lens import Lens
 
 # Strips are as wide as one pass over the channels is worth, narrower where a channel alone fills them with keys, and
 # overlap by more than the radius of a hit; pixels.
-WIDE, NARROW = 128, 32
+WIDE, NARROW = 128, 16
 MARGIN = 16
 MANY_KEYS = 20_000
 SEGMENT = 2.0
@@ -138,19 +138,32 @@ class _Merged:
         self.rows, self.segment = rows, segment
         if not rows:
             return
-        numbers = np.concatenate([row.numbers for row in rows], axis=1)
+        self._times_seen = times
+        self._cut: tuple[Floats, Ints] | None = None
+        if len(rows) == 1:  # in order, as it is
+            self.times, self.values, self.ids = rows[0].numbers[0], rows[0].numbers[1], rows[0].ids
+            self.key_owners = np.zeros(len(self.ids), np.int64)
+            return
+        numbers = np.concatenate([row.numbers[:2] for row in rows], axis=1)
         owners = np.repeat(np.arange(len(rows)), [len(row.ids) for row in rows])
         order = np.argsort(numbers[0], kind="stable")
         self.times, self.values = numbers[0][order], numbers[1][order]
         self.ids = np.concatenate([row.ids for row in rows])[order]
         self.key_owners = owners[order]
-        held = np.concatenate([row.held for row in rows])
-        inside, inside_owners = _cut(numbers, held, owners, times, segment)
-        outside_owners = np.repeat(np.arange(len(rows)), [row.outside.shape[1] for row in rows])
-        segments = np.concatenate([inside, *(row.outside for row in rows)], axis=1)
-        order = np.argsort(segments[0], kind="stable")
-        self.segments = segments[:, order]
-        self.segment_owners = np.concatenate([inside_owners, outside_owners])[order]
+
+    def _segments(self) -> tuple[Floats, Ints]:
+        """The curves in short pieces in the order of time, and their owners; cut up when asked for first."""
+        if self._cut is None:
+            rows = self.rows
+            numbers = np.concatenate([row.numbers for row in rows], axis=1)
+            owners = np.repeat(np.arange(len(rows)), [len(row.ids) for row in rows])
+            held = np.concatenate([row.held for row in rows])
+            inside, inside_owners = _cut(numbers, held, owners, self._times_seen, self.segment)
+            outside_owners = np.repeat(np.arange(len(rows)), [row.outside.shape[1] for row in rows])
+            segments = np.concatenate([inside, *(row.outside for row in rows)], axis=1)
+            order = np.argsort(segments[0], kind="stable")
+            self._cut = segments.take(order, axis=1), np.concatenate([inside_owners, outside_owners]).take(order)
+        return self._cut
 
     def keys_near(
         self, lens: Lens, selection: Selection, x: float, y: float, radius: float, stale: Flags = NONE_STALE
@@ -179,25 +192,29 @@ class _Merged:
         chosen = np.zeros(len(places), np.bool_)
         owners, ids = self.key_owners[places], self.ids[places]
         for owner in np.unique(owners).tolist():
-            mine = owners == owner
-            chosen[mine] = np.isin(ids[mine], selection.ids(self.rows[owner].channel))
+            selected = selection.ids(self.rows[owner].channel)
+            if len(selected):
+                mine = owners == owner
+                at = selected.searchsorted(ids[mine])
+                chosen[mine] = selected.take(at, mode="clip") == ids[mine]
         return chosen
 
     def curves_near(self, lens: Lens, x: float, y: float, radius: float, stale: Flags = NONE_STALE) -> Near:
         """As `Strip.curves_near`, without the *stale* owners."""
         if not self.rows:
             return NOTHING
-        first = int(self.segments[0].searchsorted(lens.time(x - radius) - self.segment, "left"))
-        last = int(self.segments[0].searchsorted(lens.time(x + radius), "right"))
+        segments, segment_owners = self._segments()
+        first = int(segments[0].searchsorted(lens.time(x - radius) - self.segment, "left"))
+        last = int(segments[0].searchsorted(lens.time(x + radius), "right"))
         if first >= last:
             return NOTHING
         low, high = sorted((lens.value(y - radius), lens.value(y + radius)))
-        value0, value1 = self.segments[1, first:last], self.segments[3, first:last]
+        value0, value1 = segments[1, first:last], segments[3, first:last]
         near = np.flatnonzero((np.maximum(value0, value1) >= low) & (np.minimum(value0, value1) <= high)) + first
-        near = _without(stale, near, self.segment_owners)
+        near = _without(stale, near, segment_owners)
         if not len(near):
             return NOTHING
-        time0, value0, time1, value1 = self.segments[:, near]
+        time0, value0, time1, value1 = segments[:, near]
         with np.errstate(all="ignore"):
             x0, y0 = lens.x(time0) - x, lens.y(value0) - y
             dx, dy = lens.x(time1) - x - x0, lens.y(value1) - y - y0
@@ -206,9 +223,9 @@ class _Merged:
             distances = np.hypot(x0 + along * dx, y0 + along * dy)
         inside = np.flatnonzero(distances <= radius)
         inside = inside[np.argsort(distances[inside], kind="stable")]
-        _, nearest = np.unique(self.segment_owners[near[inside]], return_index=True)
+        _, nearest = np.unique(segment_owners[near[inside]], return_index=True)
         best = inside[np.sort(nearest)[:MAX_NEAR]]
-        owners = [self.rows[owner].channel for owner in self.segment_owners[near[best]].tolist()]
+        owners = [self.rows[owner].channel for owner in segment_owners[near[best]].tolist()]
         times = time0[best] + along[best] * (time1[best] - time0[best])
         values = value0[best] + along[best] * (value1[best] - value0[best])
         return Near(owners, np.zeros(len(best), np.int64), times, values, distances[best])
@@ -241,9 +258,13 @@ def _cut(
     Spans shorter than a *segment* (seconds) are one; of longer ones only what lies within *times* is cut up.
     """
     spans = np.flatnonzero(owners[1:] == owners[:-1])
-    time0, value0, _, slope0 = numbers[:, spans]
-    time1, value1, slope1, _ = numbers[:, spans + 1]
-    held, owners = held[spans], owners[spans]
+    if len(spans) == len(owners) - 1:  # of one owner
+        (time0, value0, _, slope0), (time1, value1, slope1, _) = numbers[:, :-1], numbers[:, 1:]
+        held, owners = held[:-1], owners[:-1]
+    else:
+        time0, value0, _, slope0 = numbers.take(spans, axis=1)
+        time1, value1, slope1, _ = numbers.take(spans + 1, axis=1)
+        held, owners = held[spans], owners[spans]
     low, high = np.maximum(time0, times[0]), np.minimum(time1, times[1])
     with np.errstate(over="ignore"):
         counts = np.ceil((high - low) / segment)
@@ -261,8 +282,9 @@ def _cut(
             value0[which] + u * (m0 + u * (3 * rise - 2 * m0 - m1 + u * (m0 + m1 - 2 * rise))) for u in (u0, u1)
         )
     jump = np.flatnonzero(held)  # a held span ends in a jump, drawn upright
+    ends = np.array([time0, value0, time1, value1])
     segments = (
-        np.array([time0[short], value0[short], time1[short], value1[short]]),
+        ends if short.all() else ends.take(np.flatnonzero(short), axis=1),
         np.array([start, from_value, end, to_value]),
         np.array([time1[jump], value0[jump], time1[jump], value1[jump]]),
     )
