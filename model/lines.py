@@ -17,6 +17,8 @@ TOLERANCE = 0.25
 # Beyond this the arithmetic of crossings overflows, and every line is upright anyway.
 HUGE = 1e30
 MOST_PIECES = 4096
+# A line that falls by so many pixels in one is upright, and what is far beside it says nothing of its height.
+STEEP = 1e6
 
 
 class Line(NamedTuple):
@@ -226,14 +228,16 @@ def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) ->
     return _cut(pattern, x0 - across * start, y0 - down * start, across, down, near, far)[0]
 
 
-def straight_dashes(rays: Floats, dash: float, gap: float, anchor: float) -> list[Floats]:
+def straight_dashes(rays: Floats, dash: float, gap: float, anchor: float, left: float) -> list[Floats]:
     """As `dashes`, of each of the straight *rays* (n, 5): through x, y, falling by a slope, from column to column.
 
-    The pattern is counted from x = *anchor*: a key that is set on the line moves no dash.
+    The pattern is counted from x = *anchor*: a key that is set on the line moves no dash. It is worked out from
+    x = *left* on, so that a dash has the same numbers, bit by bit, wherever a ray begins.
     """
     x, y, slope, low, high = rays.T
     stretch = np.hypot(1.0, slope)
-    begin = low - (low - anchor) % ((dash + gap) / stretch)
+    start = np.where(np.abs(slope) < STEEP, left, low)
+    begin = start - (start - anchor) % ((dash + gap) / stretch)
     near, far = (low - begin) * stretch, (high - begin) * stretch
     pieces, ray = _cut((dash, gap), begin, y + (begin - x) * slope, 1 / stretch, slope / stretch, near, far)
     return np.split(pieces, np.searchsorted(ray, np.arange(1, len(rays))))

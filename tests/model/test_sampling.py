@@ -206,13 +206,23 @@ def test_dashes_begin_anew_at_every_key_so_that_edits_move_none_beside_them() ->
 def test_a_line_of_a_million_pixels_costs_no_million_dashes() -> None:
     line = Line(np.array([0.0, 1.0]), np.array([-FAR, FAR]), np.zeros(2, np.intp))
     assert len(dashes(line, (3.0, 4.0), 0.0, 900.0)) == pytest.approx(900 / 7, abs=2)
-    (pieces,) = straight_dashes(np.array([[0.0, 0.0, 0.5, 1e6, 1e6 + 100]]), 3.0, 4.0, 0.0)
+    (pieces,) = straight_dashes(np.array([[0.0, 0.0, 0.5, 1e6, 1e6 + 100]]), 3.0, 4.0, 0.0, 1e6)
     assert len(pieces) == pytest.approx(112 / 7, abs=2)
 
 
 def test_a_key_set_on_a_straight_line_moves_none_of_its_dashes() -> None:
     rays = np.array([[100.0, 50.0, 0.75, 100.0, 180.0], [140.0, 80.0, 0.75, 140.0, 180.0]])
-    pieces, later = straight_dashes(rays, 3.0, 4.0, 13.0)
+    pieces, later = straight_dashes(rays, 3.0, 4.0, 13.0, 0.0)
     assert (pieces[:, 1] - 50) == pytest.approx((pieces[:, 0] - 100) * 0.75)
     assert np.hypot(*(pieces[1:-1, 2:] - pieces[1:-1, :2]).T) == pytest.approx(3.0)
     assert pieces[pieces[:, 0] > 140] == pytest.approx(later[later[:, 0] > 140])
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.3, -7.1])
+def test_a_dash_is_the_same_to_the_last_bit_wherever_its_line_begins(slope: float) -> None:
+    ends = [(low, 140.0) for low in np.linspace(1.0, 90.0, 41).tolist()]
+    whole, *parts = straight_dashes(np.array([(3.3, 1.7, slope, *end) for end in ends]), 3.0, 4.0, 13.1, 0.0)
+    for (low, _), part in zip(ends[1:], parts, strict=True):
+        inner = part[part[:, 0] > low]
+        assert len(inner) > 5
+        assert (inner == whole[len(whole) - len(inner) :]).all()

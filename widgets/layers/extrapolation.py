@@ -50,7 +50,8 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
             sides.append((trace, after, low, high))
     # Cut together, as nearly all work on a few dashes is fixed; painted in turn, so that the same ones lie on top.
     dash, gap = (part * window.unit for part in DASH)
-    cut = straight_dashes(np.array(list(rays.values())), dash, gap, window.x_from_time(0.0)) if rays else []
+    anchor = window.x_from_time(0.0)
+    cut = straight_dashes(np.array(list(rays.values())), dash, gap, anchor, window.left) if rays else []
     lines = dict(zip(rays, cut, strict=True))
     for i, (trace, after, low, high) in enumerate(sides):
         if i in lines and i + 1 in lines and sides[i + 1][0] is trace:
