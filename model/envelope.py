@@ -17,6 +17,8 @@ from model.keyframe import TangentRule
 from model.rows import AT_A_TIME, RULE_OUT, TIME, VALUE, A, B, C, Rows, Slots
 
 BLOCK = 32
+# Up to so many spans a pair of ends, those between two pairs included, one pass is quicker than looking for blocks.
+DIRECT = 500
 
 type Range = tuple[Floats, Floats]
 
@@ -47,6 +49,13 @@ class Extremes:
 
     def between(self, starts: Slots, ends: Slots) -> Range:
         """The ranges over the slots from *starts* up to before *ends*, pair by pair; (inf, -inf) over none."""
+        cuts = np.minimum(np.stack([starts, ends], axis=1).reshape(-1), len(self.low) - 1)
+        passed = int(np.maximum(cuts[1:] - cuts[:-1], 0).sum())
+        if passed <= DIRECT * len(starts):
+            low, high = np.minimum.reduceat(self.low, cuts)[::2], np.maximum.reduceat(self.high, cuts)[::2]
+            none = starts >= ends
+            low[none], high[none] = np.inf, -np.inf
+            return low, high
         size = self.block
         first, last = -(-starts // size), ends // size
         low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
