@@ -111,7 +111,8 @@ def fingerprint_of(path: str) -> Fingerprint | None:
 
 def digest_of(data: bytes) -> int:
     """A number that tells these bytes from others; piece by piece, so that no other thread waits for long."""
-    return hash(tuple([hash(data[first : first + _PIECE]) for first in range(0, len(data), _PIECE)]))
+    view = memoryview(data)
+    return hash(tuple([hash(view[first : first + _PIECE]) for first in range(0, len(data), _PIECE)]))
 
 
 def read_regular(path: str) -> bytes:

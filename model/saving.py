@@ -84,8 +84,9 @@ def save_content(
 def save_atomic(path: str | os.PathLike[str], data: bytes, *, verify: Verify | None = None) -> SaveResult:
     """Put *data* in the place of the file at *path*, or of the file that a link there leads to.
 
-    *verify* gets the bytes read back from the disk and raises if they are not right. Raises SaveError (and whatever
-    *verify* raises): then the old file is untouched. Mode, owner and attributes are kept as far as the system allows.
+    *verify* gets *data* once the disk has given back the same bytes, and raises if they are not right. Raises SaveError
+    (and whatever *verify* raises): then the old file is untouched. Mode, owner and attributes are kept as far as the
+    system allows.
     """
     name = os.fspath(path)
     try:
@@ -130,13 +131,13 @@ def _replace(target: str, status: os.stat_result | None, data: bytes, verify: Ve
             _write_all(handle, data)
             notes = _keep_attributes(handle, target, status)
             _sync(handle)  # a failed sync is final: a second one may report success for pages that are lost
-            written = _read_back(handle, len(data))
+            same = _holds(handle, data)
         finally:
             os.close(handle)
-        if written != data:
+        if not same:
             raise OSError(errno.EIO, "the disk gave back other bytes than were written")
         if verify is not None:
-            verify(written)
+            verify(data)  # what has just been read back
         os.replace(temp, target)
     except BaseException:
         _remove(temp)
@@ -153,12 +154,15 @@ def _write_all(handle: int, data: bytes) -> None:
         rest = rest[count:]
 
 
-def _read_back(handle: int, size: int) -> bytes:
+def _holds(handle: int, data: bytes) -> bool:
+    """Whether the file, read back from its start, is *data* byte for byte."""
     os.lseek(handle, 0, os.SEEK_SET)
-    pieces = []
-    while piece := os.read(handle, max(_PIECE, size + 1)):
-        pieces.append(piece)
-    return b"".join(pieces)
+    position = 0
+    while piece := os.read(handle, _PIECE):
+        if not data.startswith(piece, position):
+            return False
+        position += len(piece)
+    return position == len(data)
 
 
 def _sync(handle: int) -> None:

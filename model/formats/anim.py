@@ -4,13 +4,14 @@ Source: UCSD CSE169, project 3 "Keyframe animation" (S. Rotenberg) and the files
 """
 
 import re
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from model.extrapolation import Extrapolation
-from model.formats.content import ChannelContent, Content
+from model.formats.content import ChannelContent, Content, joined
 from model.formats.error import MAX_CHANNELS, MAX_KEYS, TextError, meant, shown
 from model.formats.keys import KeyWriter, Words, run_from_text
 from model.formats.scanner import Scanner, Token
@@ -27,6 +28,10 @@ _WORDS_IN: Final[Words] = {word.encode(): rule for rule, word in _WRITTEN.items(
 _WORDS_OUT: Final[Words] = {**_WORDS_IN, b"step": int(TangentRule.STEP), b"stepped": int(TangentRule.STEP)}
 _CHANNEL: Final = re.compile(rb"\bchannel\b")
 _MODES: Final = {mode.word: mode for mode in Extrapolation}
+_WORDS: Final = {mode: word for word, mode in _MODES.items()}
+# What is left of each rule: the course knows neither a rule of no overshoot nor a held span.
+_HELD: Final = np.arange(max(TangentRule) + 1, dtype=np.uint8)
+_HELD[TangentRule.AUTO], _HELD[TangentRule.STEP] = TangentRule.FIXED, TangentRule.FLAT
 
 
 def read(data: bytes, report: Report = unheard) -> Content:
@@ -123,22 +128,29 @@ def broken_of(run: Run) -> NDArray[np.bool_]:
 
 def held(content: Content) -> Content:
     """What is left of *content* in this format."""
+    runs = _held_runs([channel.run for channel in content.channels])
     channels = [
-        ChannelContent(f"channel {i}", _held_run(channel.run), channel.pre, channel.post)
-        for i, channel in enumerate(content.channels)
+        ChannelContent(f"channel {i}", run, channel.pre, channel.post)
+        for i, (channel, run) in enumerate(zip(content.channels, runs, strict=True))
     ]
     return Content(content.start, content.end, channels)
 
 
-def _held_run(run: Run) -> Run:
-    """Slopes of a rule that the course does not know become numbers, a held span becomes a flat tangent."""
-    run = run.copy()
-    for side in ("in", "out"):
-        rules = run[f"rule_{side}"]
-        rules[rules == TangentRule.AUTO] = TangentRule.FIXED
-        rules[rules == TangentRule.STEP] = TangentRule.FLAT
-    run["broken"] = broken_of(run)
-    return run
+def _held_runs(runs: list[Run]) -> list[Run]:
+    """Slopes of a rule that the course does not know become numbers, a held span becomes a flat tangent.
+
+    The runs themselves when all of it is held.
+    """
+    keys = joined(runs)
+    known = [_HELD[keys[rules]] for rules in ("rule_in", "rule_out")]
+    if all(np.array_equal(rules, keys[field]) for rules, field in zip(known, ("rule_in", "rule_out"), strict=True)):
+        broken = broken_of(keys)
+        if np.array_equal(broken, keys["broken"]):
+            return runs
+    keys = keys.copy() if len(runs) == 1 else keys
+    keys["rule_in"], keys["rule_out"] = known
+    keys["broken"] = broken_of(keys)
+    return [keys[first:last] for first, last in pairwise(np.cumsum([0, *map(len, runs)]).tolist())]
 
 
 def write(content: Content, report: Report = unheard) -> bytes:
@@ -150,9 +162,9 @@ def write(content: Content, report: Report = unheard) -> bytes:
     texts = keys.texts([channel.run for channel in content.channels], report)
     for channel, text in zip(content.channels, texts, strict=True):
         parts += [
-            f"  channel {{\n    extrapolate {channel.pre.word} {channel.post.word}\n".encode(),
+            f"  channel {{\n    extrapolate {_WORDS[channel.pre]} {_WORDS[channel.post]}\n".encode(),
             b"    keys %d {\n" % len(channel.run),
-            text,
+            *text,
             b"    }\n  }\n",
         ]
     parts.append(b"}\n")

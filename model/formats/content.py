@@ -1,6 +1,6 @@
 """Content: what a file says of a clip, before channels are built from it and after they are read out."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, NamedTuple
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
-from model.keyframe import Run, TangentRule
+from model.keyframe import KEY_DTYPE, Run, TangentRule
 from model.labels import counted
 from model.progress import Report, unheard
 
@@ -124,7 +124,7 @@ def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[Loss]:
         return
     names = [name for name, _, _ in same]
     ends = np.cumsum([len(a) for _, a, _ in same])
-    wanted, held = _joined([a for _, a, _ in same]), _joined([b for _, _, b in same])
+    wanted, held = joined([a for _, a, _ in same]), joined([b for _, _, b in same])
     for kind, lost in _kinds_of_loss(wanted, held):
         where = np.flatnonzero(lost)
         if len(where):
@@ -142,8 +142,13 @@ class _Kind(NamedTuple):
     in_motion: bool
 
 
-def _joined(runs: list[Run]) -> Run:
-    return runs[0] if len(runs) == 1 else np.concatenate(runs)
+def joined(runs: Sequence[Run]) -> Run:
+    """One run after the other, as bytes since numpy copies keys field by field; a run alone is not copied."""
+    if len(runs) == 1:
+        return runs[0]
+    return np.concatenate([np.zeros(0, np.uint8), *[np.ascontiguousarray(r).view(np.uint8) for r in runs]]).view(
+        KEY_DTYPE
+    )
 
 
 def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[_Kind, NDArray[np.bool_]]]:

@@ -19,6 +19,8 @@ POWERS: Final = np.array([10.0**k for k in range(23)])  # 10**22 is the last tha
 _WHOLE_POWERS: Final = 10 ** np.arange(19, dtype=np.int64)
 _FEWEST: Final = 1e-4  # repr turns to exponents below
 _MOST: Final = 1e8  # two quads of whole part
+_EXPONENT: Final = np.int64(0x7FF0000000000000)
+_DOUBT: Final = 1e-6  # what is left of the remainder's own rounding is a thousand million times less
 _SPLITTER: Final = 134217729.0  # 2**27 + 1
 
 
@@ -55,8 +57,9 @@ def product_error(a: Floats, b: Floats, product: Floats) -> Floats:
 def quotients(digits: Integers, places: Integers) -> tuple[Floats, Bools]:
     """The doubles nearest to digits / 10**places, and where that is certain: nearly everywhere.
 
-    The remainder of the division is worked out exactly and added; only a result within 0.1 % of the middle between two
-    doubles (or of the other middle that a power of two has) could round the wrong way.
+    The remainder of the division is worked out exactly and added; only a result within a
+    millionth of the middle between two doubles (or of the other middle that a power of two has) could round the wrong
+    way.
     """
     high = digits.astype(np.float64)
     scale = POWERS[places]
@@ -69,8 +72,10 @@ def quotients(digits: Integers, places: Integers) -> tuple[Floats, Bools]:
     correction = remainder / scale
     result = quotient + correction
     rest = np.abs((quotient - result) + correction)
-    gap = np.spacing(result)
-    certain = (np.abs(rest - 0.5 * gap) > 0.001 * gap) & (np.abs(rest - 0.25 * gap) > 0.001 * gap) | (digits == 0)
+    # The distance to the next double: the power of two that the result begins with, of which a double holds 52 bits.
+    gap = (result.view(np.int64) & _EXPONENT).view(np.float64) * 2.0**-52
+    near = _DOUBT * gap
+    certain = (np.abs(rest - 0.5 * gap) > near) & (np.abs(rest - 0.25 * gap) > near) | (digits == 0)
     return result, certain
 
 

@@ -8,11 +8,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from model.formats.content import joined
 from model.formats.decimals import CELL, Cells, fill_cells
 from model.formats.error import MAX_KEYS, MAX_TOKEN_BYTES, TextError, shown
 from model.formats.key_errors import first_error, order_error
 from model.formats.numerals import Columns, columns_of
 from model.formats.scanner import Scanner
+from model.formats.side_by_side import side_by_side
 from model.keyframe import KEY_DTYPE, Run, TangentRule
 from model.progress import Report, unheard
 
@@ -23,9 +25,9 @@ type Words = dict[bytes, int]
 
 _FLAG: Final = re.compile(rb"[ \t\r\n]*(" + BROKEN + rb")(?=[ \t\r\n]|\Z)")
 
-_PIECE: Final = 1 << 19  # bytes read at once
+_PIECE: Final = 1 << 20  # bytes read at once
 _SMALL: Final = 1 << 13  # bytes below which one word after the other is quicker than whole columns
-_LINES: Final = 8192  # written at once
+_LINES: Final = 16384  # written at once
 
 
 def run_from_text(scanner: Scanner, start: int, end: int, words_in: Words, words_out: Words, *, flags: bool) -> Run:
@@ -36,33 +38,63 @@ def run_from_text(scanner: Scanner, start: int, end: int, words_in: Words, words
     first word that is wrong; times must strictly increase.
     """
     data, flag = scanner.data, BROKEN if flags else b""
-    pieces: list[Columns] = []
-    position = start
-    count = 0
+    pieces, position = _plain_pieces(scanner, start, end, words_in, words_out, flag)
+    count = sum(map(len, pieces))
     while position < end:
         scanner.passed(position)
         late_flag = _FLAG.match(data, position, min(end, position + _PIECE)) if flags and pieces else None
         if late_flag is not None:  # of a key at the end of the piece before
-            if pieces[-1].broken[-1]:
+            if pieces[-1]["broken"][-1]:
                 raise TextError(late_flag.start(1), f"{shown(flag)} belongs behind a key, once")
-            pieces[-1].broken[-1] = True
+            pieces[-1]["broken"][-1] = True
             position = late_flag.end()
         piece, position = _piece(data, position, end, words_in, words_out, flag)
         if len(piece.times):
-            pieces.append(piece)
+            pieces.append(_run_of(piece))
         count += len(piece.times)
         if count > MAX_KEYS:
             raise TextError(start, f"more than {MAX_KEYS} keys in one channel")
-    run = np.zeros(count, KEY_DTYPE)
-    first = 0
-    for piece in pieces:
-        part = run[first : first + len(piece.times)]
-        for field, column in zip(_FIELDS, piece, strict=True):
-            part[field] = column
-        first += len(part)
+    run = joined(pieces)
     times = run["time"]
     if count > 1 and not bool((times[1:] > times[:-1]).all()):
         raise order_error(data, start, end, times, flag)
+    return run
+
+
+def _plain_pieces(
+    scanner: Scanner, start: int, end: int, words_in: Words, words_out: Words, flag: bytes
+) -> tuple[list[Run], int]:
+    """The first keys of a long block, as far as a key ends where each piece is cut; and where the next ones begin."""
+    data = scanner.data
+    cuts = [start]
+    while (
+        end - cuts[-1] > _PIECE and (cut := data.find(b"\n", cuts[-1] + _PIECE, min(end, cuts[-1] + 2 * _PIECE))) >= 0
+    ):
+        cuts.append(cut)
+    counts: list[int] = []  # of the keys of each piece read so far; -1 where it is not plain
+
+    def read(span: tuple[int, int]) -> Run | None:
+        if -1 in counts or sum(counts) > MAX_KEYS:
+            return None
+        columns = columns_of(data[slice(*span)], words_in, words_out, _FIXED, flag)
+        counts.append(-1 if columns is None else len(columns.times))
+        return None if columns is None else _run_of(columns)
+
+    def report(share: float) -> None:
+        scanner.passed(start + round(share * (cuts[-1] - start)))
+
+    pieces: list[Run] = []
+    for piece in side_by_side(read, list(pairwise(cuts)), report):
+        if piece is None:
+            break
+        pieces.append(piece)
+    return pieces, cuts[len(pieces)]
+
+
+def _run_of(columns: Columns) -> Run:
+    run = np.zeros(len(columns.times), KEY_DTYPE)
+    for field, column in zip(_FIELDS, columns, strict=True):
+        run[field] = column
     return run
 
 
@@ -149,19 +181,17 @@ class KeyWriter:
         self._words = np.array([_quads(words.get(rule, ""), 2) for rule in range(max(TangentRule) + 1)])
         self._ends = _quads("\n", 2), _quads(f"{separator}{BROKEN.decode()}\n", 2)
 
-    def texts(self, runs: Sequence[Run], report: Report = unheard) -> list[bytes]:
-        """The lines of each run; all runs are worked on together, since there may be many short ones."""
-        keys = runs[0] if len(runs) == 1 else np.concatenate([np.zeros(0, KEY_DTYPE), *runs])
-        pieces = []
-        for first in range(0, len(keys), _LINES):
-            report(first / len(keys))
-            pieces.append(self._lines(keys[first : first + _LINES]))
-        text = b"".join(pieces)
+    def texts(self, runs: Sequence[Run], report: Report = unheard) -> list[list[bytes]]:
+        """The lines of each run, in pieces; all runs are worked on together, since there may be many short ones."""
+        keys = joined(runs)
+        firsts = range(0, len(keys), _LINES)
+        pieces = side_by_side(lambda first: self._lines(keys[first : first + _LINES]), firsts, report)
         if len(runs) == 1:
-            return [text]
+            return [pieces]
+        text = b"".join(pieces)
         ends = np.flatnonzero(np.frombuffer(text, np.uint8) == ord("\n")) + 1
         cuts = np.concatenate([[0], ends])[np.cumsum([0, *map(len, runs)])].tolist()
-        return [text[first:last] for first, last in pairwise(cuts)]
+        return [[text[first:last]] for first, last in pairwise(cuts)]
 
     def _lines(self, run: Run) -> bytes:
         """Cells of four bytes each, side by side; where a cell is not full there are NULs, which are taken out."""

@@ -25,6 +25,7 @@ _WRITTEN: Final = {int(rule): rule.word for rule in TangentRule if rule is not T
 _WORDS_OUT: Final[Words] = {word.encode(): rule for rule, word in _WRITTEN.items()}
 _WORDS_IN: Final[Words] = {word: rule for word, rule in _WORDS_OUT.items() if rule != TangentRule.STEP}
 _MODES: Final = {mode.word: mode for mode in Extrapolation}
+_WORDS: Final = {mode: word for word, mode in _MODES.items()}
 _COLOR: Final = re.compile(r"#[0-9a-fA-F]{6}\Z")
 
 
@@ -144,7 +145,7 @@ def write(content: Content, report: Report = unheard) -> bytes:
     parts = ["".join(head).encode()]
     texts = keys.texts([channel.run for channel in content.channels], report)
     for channel, text in zip(content.channels, texts, strict=True):
-        parts += [_channel_head(channel).encode(), text, b"  }\n}\n"]
+        parts += [_channel_head(channel).encode(), *text, b"  }\n}\n"]
     parts.append(b"\nend\n")
     return b"".join(parts)
 
@@ -157,4 +158,4 @@ def _channel_head(channel: ChannelContent) -> str:
         lines.append(f"  color {quoted(_checked_color(channel.color))}")
     if channel.locked:
         lines.append("  locked")
-    return "\n".join([*lines, f"  extrapolate {channel.pre.word} {channel.post.word}", "  keys {", ""])
+    return "\n".join([*lines, f"  extrapolate {_WORDS[channel.pre]} {_WORDS[channel.post]}", "  keys {", ""])
