@@ -70,8 +70,8 @@ def save_content(
 ) -> SaveResult:
     """The same of what a clip held. A CancelledError from *report* leaves the old file untouched too."""
     name = os.fspath(path)
-    data = write_content(content, format_name, part_of(report, 0.0, 0.4))
     wanted = FORMATS[format_name].held(content)
+    data = write_content(wanted, format_name, part_of(report, 0.0, 0.4))
 
     def verify(written: bytes) -> None:
         lost = differences(wanted, read_content(written, name, beside=False, report=part_of(report, 0.5, 1.0)))
