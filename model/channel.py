@@ -182,6 +182,11 @@ class Channel(Curve):
         rank0, rank1 = max(0, rank0 - around), min(len(self), max(rank0, rank1) + around)
         return self._again((rank0, rank1), self._run, rank0, rank1)
 
+    def ids_between(self, t0: float, t1: float) -> NDArray[np.int64]:
+        """The ids of the keys with t0 <= time <= t1, in time order."""
+        rank0, rank1 = self._rows.rank_at(t0, after=False), self._rows.rank_at(t1)
+        return self._rows.ids_between(rank0, max(rank0, rank1))
+
     def count_between(self, t0: float, t1: float) -> int:
         """How many keys have t0 <= time <= t1."""
         return max(0, self._rows.rank_at(t1) - self._rows.rank_at(t0, after=False))

@@ -11,6 +11,7 @@ from model.event import Event
 from model.gesture import Compute, Gesture, Selecting, added_keys
 from model.labels import label_of
 from model.progress import CancelledError, Report, unheard
+from model.selected import SelectedRuns
 from model.selection import Selection
 from model.session import Session
 
@@ -44,6 +45,7 @@ class Document:
         self.gesture_changed = Event[()]()
         self.clip = Clip() if clip is None else clip
         self.session = Session() if session is None else session
+        self.selected = SelectedRuns()
         self.gesture: Gesture | None = None
         self.long_work: LongWork | None = None
         self._working = False
@@ -85,10 +87,14 @@ class Document:
         def work(_report: Report) -> None:
             self._put_all(edit.changes, touched)
 
+        def work_at_length(report: Report) -> None:
+            work(report)
+            self._measure(touched, edit.selection_after)
+
         if self.long_work is None or edit.key_count < MANY_KEYS:
             work(unheard)
         else:  # the history goes on to the other side whatever happens here, so that it must come about
-            self._at_length(edit.label, work, stoppable=False)
+            self._at_length(edit.label, work_at_length, stoppable=False)
         active = edit.active_after if edit.active_after is not None else self.session.active
         self._tell(touched, edit.selection_after, active)
 
@@ -122,6 +128,12 @@ class Document:
             return self.long_work(text, work, stoppable=stoppable)
         finally:
             self._working = False
+
+    def _measure(self, touched: Touched, selection: Selection) -> None:
+        """Work out what everybody asks as soon as they are told; it is kept until it changes."""
+        for channel in touched.intervals:
+            channel.extrema()
+        self.selected.of(selection)
 
     def _put_all(
         self,

@@ -165,6 +165,8 @@ class Gesture:
         try:
             report(0.8)
             self._kept = self._worked_out()
+            report(0.9)
+            self._document._measure(*news)
             report(1.0)
         except BaseException:
             self._rewind()

@@ -149,6 +149,8 @@ class Rows:
             raise KeyGoneError(f"there is no key with id {ids[int((rows < 0).argmax())]}")
         if len(ids) < 8:
             return np.array(sorted({self.rank_of(key_id) for key_id in ids.tolist()}), np.int64)
+        if len(ids) == self.size and bool((ids[1:] > ids[:-1]).all()):
+            return np.arange(self.size)
         wanted = np.zeros(len(self.row_of), np.bool_)
         wanted[ids] = True
         touched = np.flatnonzero(np.bincount(rows))
@@ -232,6 +234,14 @@ class Rows:
                 part[field] = self.mark_grid[column][at]
             part["id"] = self.id_grid[at]
         return run
+
+    def ids_between(self, rank0: int, rank1: int) -> NDArray[np.int64]:
+        """The ids of the keys of these ranks."""
+        found = np.empty(rank1 - rank0, np.int64)
+        for rank, row, rows, place, count, _ in self.blocks(rank0, rank1):
+            part = found[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
+            part[:] = self.id_grid[row : row + rows, place : place + count]
+        return found
 
     def same_ids(self, rank0: int, ids: NDArray[np.int64]) -> bool:
         """Whether the keys from rank0 on have exactly these *ids*; rank0 + len(ids) must not pass the last key."""

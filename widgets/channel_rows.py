@@ -146,6 +146,8 @@ class ChannelRows(QAbstractItemModel):
 
     def value_text(self, channel: Channel) -> str:
         """The value at the playhead, as shown."""
+        if self._document.working:
+            return "…"
         value = channel.value(self._document.session.playhead) * factor_of(channel.unit)
         return steady(value) + ("°" if is_angle(channel.unit) else "")
 

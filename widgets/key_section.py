@@ -148,19 +148,19 @@ class KeySection(QWidget):
     def _set_rule(self, side: str, rule: TangentRule) -> None:
         selection = self._document.session.selection
         label = self._document.label_of(f"Set {rule.word} {side} on", selection)
-        self._document.do(label, lambda clip: edits.set_rule(clip, selection, rule, side))
+        self._document.do(label, lambda clip: edits.set_rule(clip, selection, rule, side), keys=selection.count)
         self.refresh()
 
     def _unify(self) -> None:
         selection = self._document.session.selection
         label = self._document.label_of("Unify", selection)
-        self._document.do(label, lambda clip: edits.unify_tangents(clip, selection))
+        self._document.do(label, lambda clip: edits.unify_tangents(clip, selection), keys=selection.count)
         self.refresh()
 
     def _break(self) -> None:
         selection = self._document.session.selection
         label = self._document.label_of("Break", selection)
-        self._document.do(label, lambda clip: edits.break_tangents(clip, selection))
+        self._document.do(label, lambda clip: edits.break_tangents(clip, selection), keys=selection.count)
         self.refresh()
 
 

@@ -11,7 +11,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.document import Document, Gesture
 from model.expressions import Formula
-from model.keyframe import KeyGoneError, Run
+from model.keyframe import Run
 from model.selection import Selection
 from widgets.number_targets import GestureHolder
 from widgets.numbers import factor_of, is_angle, shown, stored_from_shown
@@ -27,20 +27,10 @@ class SelectedKeys:
 
     def __init__(self, document: Document) -> None:
         self._document = document
-        self._mark: object = None
-        self._runs: list[tuple[Channel, Run]] = []
 
     def runs(self) -> list[tuple[Channel, Run]]:
         """The selected keys by channel, in time order."""
-        selection = self._document.session.selection
-        mark = selection, tuple(channel.revision for channel in selection.channels)
-        if mark != self._mark:
-            self._mark = mark
-            try:
-                self._runs = [(channel, channel.keys_of(selection.ids(channel))) for channel in selection.channels]
-            except KeyGoneError:  # deleted a moment ago; the selection follows
-                self._runs = []
-        return self._runs
+        return self._document.selected.of(self._document.session.selection)
 
     def column(self, field: str) -> NDArray[np.generic]:
         """One field of all selected keys as stored."""

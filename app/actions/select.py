@@ -16,7 +16,7 @@ INFINITY = float("inf")
 def _select(window: "MainWindow", start: float, end: float) -> None:
     """Select the keys of the shown channels from *start* to *end*, both included."""
     window.session.selection = Selection.of(
-        {channel: channel.keys_between(start, end)["id"] for channel in editable_channels(window)}
+        {channel: channel.ids_between(start, end) for channel in editable_channels(window)}
     )
 
 

@@ -94,9 +94,36 @@ def test_nothing_that_files_need_stops_the_window(make_window: MakeWindow, large
     assert {work: pause for work, pause in pauses.items() if pause > MOST_SECONDS} == {}
 
 
+def test_no_change_of_a_million_keys_stops_the_window(make_window: MakeWindow, large: Path) -> None:
+    window = make_window(small_clip())
+    names = {"up": "key.up", "flat": "tangent.flat"}
+    assert window.open_file(str(large))
+    QTest.qWait(300)
+    pauses = {}
+    steps = ("select_all", "up", "undo", "redo", "flat", "delete", "undo", "duplicate", "undo")
+    for number, step in enumerate(steps):
+        if step == "duplicate":
+            # Two million keys with every second one selected take longer to paint if all are in view.
+            window.view.set_view(window.view.view_range._replace(t0=100.0, t1=104.0))
+            QTest.qWait(100)
+        action = window.actions_by_id[names.get(step, f"edit.{step}")]
+        pauses[f"{number + 1}: {step}"] = held_up(action.run)
+    assert window.session.selection.count == KEYS
+    assert window.undo_stack.index() == 2
+    assert {work: pause for work, pause in pauses.items() if pause > MOST_SECONDS} == {}
+
+
 def test_a_window_that_does_stop_is_noticed(
     make_window: MakeWindow, large: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     window = make_window(small_clip())
     monkeypatch.setattr(app.files, "FEW_BYTES", 1 << 40)
     assert held_up(lambda: window.open_file(str(large))) > MOST_SECONDS
+
+
+def test_a_change_made_in_the_window_s_own_thread_is_noticed(make_window: MakeWindow, large: Path) -> None:
+    window = make_window(small_clip())
+    assert window.open_file(str(large))
+    window.actions_by_id["edit.select_all"].run()
+    window.document.long_work = None
+    assert held_up(window.actions_by_id["edit.duplicate"].run) > MOST_SECONDS

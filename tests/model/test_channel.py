@@ -277,3 +277,9 @@ def test_check_finds_damage() -> None:
             rows.numbers[1, -1] += 1.0
         with pytest.raises(AssertionError):
             channel.check()
+
+
+def test_ids_between_two_times_are_those_of_the_keys_there() -> None:
+    channel = Channel("x", make_run(np.arange(3000) / 24.0, 0.0))
+    for t0, t1 in ((-np.inf, np.inf), (10.0, 90.0), (10.0, 10.0), (10.01, 10.02), (200.0, 300.0), (20.0, 10.0)):
+        assert channel.ids_between(t0, t1).tolist() == channel.keys_between(t0, t1)["id"].tolist()

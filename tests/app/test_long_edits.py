@@ -1,0 +1,295 @@
+"""What the window shows and lets the user do while very many keys are changed on another thread."""
+
+import threading
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QImage, QKeyEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLineEdit
+from pytestqt.qtbot import QtBot
+
+import model.document
+from app.main_window import MainWindow
+from app.progress_row import PATIENCE_MILLISECONDS
+from model import edits
+from model.change import Change, Touched, put
+from model.channel import Channel
+from model.clip import Clip
+from model.document import Edit
+from model.keyframe import make_run
+from model.selection import Selection
+from tests.app.conftest import MakeWindow, answers_of
+from tests.app.test_jobs import meanwhile, press_escape, progress
+
+KEYS = 40_000
+
+
+class Gate:
+    """Holds up each change of a clip until it is opened; *fail* makes it an error then."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self._open = threading.Event()
+        self.threads: list[threading.Thread] = []
+        self.fail = False
+        monkeypatch.setattr(model.document, "put", self._put)
+
+    def _put(self, clip: Clip, change: Change, touched: Touched, *, read_back: bool = True) -> Change:
+        self.threads.append(threading.current_thread())
+        if threading.current_thread() is not threading.main_thread():
+            self._open.wait(20)
+            if self.fail:
+                raise ValueError("it cannot be")
+        return put(clip, change, touched, read_back=read_back)
+
+    def open(self) -> None:
+        self._open.set()
+
+
+@pytest.fixture
+def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
+    gate = Gate(monkeypatch)
+    yield gate
+    gate.open()
+
+
+@pytest.fixture
+def window(make_window: MakeWindow) -> MainWindow:
+    run = make_run(np.arange(KEYS) / 24.0, np.sin(np.arange(KEYS) / 3000.0))
+    window = make_window(Clip([Channel("root.tx", run), Channel("root.ty", run)], end=KEYS / 24.0))
+    window.activateWindow()
+    window.actions_by_id["edit.select_all"].run()
+    QApplication.processEvents()
+    window.view.canvas.settle()
+    QTest.qWait(50)
+    return window
+
+
+def data(window: MainWindow) -> list[bytes]:
+    return [channel.run().tobytes() for channel in window.document.clip.channels]
+
+
+def picture(window: MainWindow) -> QImage:
+    return window.view.grab().toImage()
+
+
+def nudge(window: MainWindow) -> None:
+    window.actions_by_id["key.up"].run()
+
+
+def raise_all(window: MainWindow) -> Edit | None:
+    selection = window.session.selection
+    return window.document.do(
+        "Raise", lambda clip: edits.nudge(clip, selection, 0.0, 0.1), keys=window.session.selection.count
+    )
+
+
+def test_the_picture_is_the_last_one_until_the_change_is_made(window: MainWindow, gate: Gate) -> None:
+    before, old = picture(window), data(window)
+
+    def look() -> QImage:
+        window.view.canvas.repaint_all()
+        QApplication.processEvents()
+        return picture(window)
+
+    seen = meanwhile(look, lambda: window.grab() is not None, gate.open)
+    nudge(window)
+    assert seen[0] == before
+    QApplication.processEvents()
+    assert picture(window) != before
+    assert data(window) != old
+    assert threading.main_thread() not in gate.threads
+
+
+def test_nobody_is_told_and_nothing_is_refreshed_before_all_is_done(window: MainWindow, gate: Gate) -> None:
+    told: list[tuple[str, bool]] = []
+
+    def listen(name: str) -> Callable[..., None]:
+        return lambda *_: told.append((name, window.document.working))
+
+    slots = {name: listen(name) for name in ("changed", "committed")}
+    for name, slot in slots.items():
+        getattr(window.document, name).connect(slot)
+    window.inspector.key.refresh = listen("inspector")  # type: ignore[method-assign]
+    window.view.router.tool.refresh = listen("tool")  # type: ignore[method-assign]
+    window.view.router.tool.hover = listen("hover")  # type: ignore[method-assign, assignment]
+    QTest.mouseMove(window.view.viewport(), QPoint(300, 200))
+    window.view.router.look_again()
+    meanwhile(lambda: QTest.qWait(150), gate.open)
+    nudge(window)
+    QTest.qWait(200)
+    assert {name for name, _ in told} >= {"changed", "committed", "tool"}
+    assert not any(working for _, working in told)
+
+
+def test_no_other_edit_is_possible_meanwhile(window: MainWindow, gate: Gate) -> None:
+    document, actions, viewport = window.document, window.actions_by_id, window.view.viewport()
+    window.view.setFocus()
+    steps = window.undo_stack.count()
+    spot = window.view.plot_rect.center().toPoint()
+    selection = window.session.selection
+
+    def refused() -> bool:
+        with pytest.raises(RuntimeError, match=r"still going on|another thread"):
+            document.begin("Another")
+        return document.working
+
+    seen = meanwhile(
+        actions["key.up"].trigger,
+        actions["edit.undo"].trigger,
+        lambda: QTest.keyClick(window.view, Qt.Key.Key_Up),
+        lambda: QTest.keyClick(window.view, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier),
+        lambda: QTest.keyClick(window, Qt.Key.Key_Space),
+        lambda: QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=spot),
+        lambda: QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=spot),
+        lambda: QTest.mouseClick(window.windowHandle(), Qt.MouseButton.LeftButton, pos=QPoint(100, 300)),
+        refused,
+        gate.open,
+        pause=10,
+    )
+    nudge(window)
+    QTest.qWait(50)
+    assert seen[-2] is True
+    assert window.undo_stack.count() == window.undo_stack.index() == steps + 1
+    assert window.session.selection == selection
+    assert not window.session.playing
+    assert window.focusWidget() is window.view
+    nudge(window)
+    assert window.undo_stack.index() == steps + 2
+
+
+def test_what_is_typed_meanwhile_goes_nowhere_and_the_focus_stays(window: MainWindow, gate: Gate) -> None:
+    field = window.tree.filter
+    field.setFocus()
+    meanwhile(lambda: QTest.keyClicks(field, "up"), gate.open)
+    raise_all(window)
+    assert field.text() == ""
+    assert window.focusWidget() is field
+    QTest.keyClicks(field, "tx")
+    assert field.text() == "tx"
+
+
+def test_ctrl_that_was_let_go_meanwhile_is_not_held_for_ever(window: MainWindow, gate: Gate) -> None:
+    control = Qt.KeyboardModifier.ControlModifier
+    press = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_Control, control)
+    QApplication.sendEvent(window.view, press)
+    assert window.view.router._modifiers == control
+    meanwhile(lambda: QTest.keyRelease(window.view, Qt.Key.Key_Control), gate.open)
+    nudge(window)
+    assert window.view.router._modifiers == Qt.KeyboardModifier.NoModifier
+
+
+@pytest.mark.parametrize("by", ["escape", "button"])
+def test_cancelled_it_has_never_been(window: MainWindow, gate: Gate, by: str) -> None:
+    before, steps, selection = data(window), window.undo_stack.count(), window.session.selection
+    row = progress(window)
+
+    def cancel() -> None:
+        if by == "escape":
+            press_escape(window)
+        else:
+            QTest.mouseClick(row.cancel, Qt.MouseButton.LeftButton)
+
+    seen = meanwhile(lambda: row.isVisible(), cancel, gate.open, pause=PATIENCE_MILLISECONDS + 50)
+    nudge(window)
+    assert seen[0] is True
+    assert data(window) == before
+    assert window.undo_stack.count() == steps
+    assert window.session.selection == selection
+    assert "cancelled" in window.status.message.text()
+    assert window.document.gesture is None
+    for channel in window.document.clip.channels:
+        channel.check()
+    nudge(window)
+    assert data(window) != before
+
+
+def test_an_undo_goes_through_and_shows_no_way_to_stop_it(window: MainWindow, gate: Gate) -> None:
+    before, row = data(window), progress(window)
+    gate.open()
+    nudge(window)
+    after = data(window)
+    gate._open.clear()
+    seen = meanwhile(
+        lambda: (row.isVisible(), row.cancel.isVisible()),
+        lambda: press_escape(window),
+        gate.open,
+        pause=PATIENCE_MILLISECONDS + 50,
+    )
+    window.actions_by_id["edit.undo"].run()
+    assert seen[0] == (True, False)
+    assert data(window) == before
+    assert window.undo_stack.index() == 0
+    window.actions_by_id["edit.redo"].run()
+    assert data(window) == after
+
+
+def test_an_error_is_told_once_and_nothing_has_changed(window: MainWindow, gate: Gate) -> None:
+    before, steps = data(window), window.undo_stack.count()
+    gate.fail = True
+    gate.open()
+    with pytest.raises(ValueError, match="it cannot be"):
+        raise_all(window)
+    assert data(window) == before
+    assert window.undo_stack.count() == steps
+    assert window.document.gesture is None
+    gate.fail = False
+    assert raise_all(window) is not None
+    assert data(window) != before
+
+
+def test_closing_waits_until_the_change_is_made(qtbot: QtBot, window: MainWindow, gate: Gate) -> None:
+    seen = meanwhile(window.close, window.isVisible, gate.open)
+    nudge(window)
+    assert seen[:2] == [False, True]
+    qtbot.waitUntil(lambda: bool(answers_of(window).asked))
+    assert answers_of(window).asked == ["save_changes"]
+    assert window.undo_stack.count() == 1
+
+
+def test_the_playhead_stands_still_meanwhile_and_then_goes_on(window: MainWindow, gate: Gate) -> None:
+    window.actions_by_id["play.toggle"].run()
+    QTest.qWait(50)
+    places = meanwhile(lambda: window.session.playhead, lambda: window.session.playhead, gate.open)
+    nudge(window)
+    assert places[0] == places[1]
+    QTest.qWait(50)
+    assert window.session.playing
+    assert window.session.playhead > places[0]  # type: ignore[operator]
+
+
+def test_few_keys_are_changed_here_and_now(window: MainWindow, gate: Gate) -> None:
+    jobs: list[object] = []
+    window.jobs.changed.connect(lambda: jobs.append(window.jobs.job))
+    channel = window.document.clip.channels[0]
+    ids = channel.keys_between(0.0, 100.0)["id"]
+    window.session.selection = Selection.of({channel: ids})
+    nudge(window)
+    assert set(gate.threads) == {threading.main_thread()}
+    assert jobs == []
+
+
+def test_a_change_during_another_job_is_made_at_once(window: MainWindow, gate: Gate) -> None:
+    gate.open()
+    before, done = data(window), threading.Event()
+    meanwhile(lambda: nudge(window), done.set)
+    window.jobs.run("Something else", lambda _report: done.wait(20), at_once=False)
+    assert data(window) != before
+    assert set(gate.threads) == {threading.main_thread()}
+
+
+def test_a_click_elsewhere_does_not_move_the_focus(window: MainWindow, gate: Gate) -> None:
+    line, other = window.inspector.findChildren(QLineEdit)[0], window.tree.filter
+    spot = other.mapTo(window, other.rect().center())
+
+    def click() -> None:
+        QTest.mouseClick(window.windowHandle(), Qt.MouseButton.LeftButton, pos=spot)
+
+    line.setFocus()
+    meanwhile(click, gate.open)
+    raise_all(window)
+    assert window.focusWidget() is line
+    click()
+    assert window.focusWidget() is other
