@@ -23,12 +23,13 @@ from model.keyframe import make_run
 from model.selection import Selection
 from tests.app.conftest import MakeWindow, answers_of
 from tests.app.test_jobs import meanwhile, press_escape, progress
+from widgets.soon import Soon
 
 KEYS = 40_000
 
 
 class Gate:
-    """Holds up each change of a clip until it is opened; *fail* makes it an error then."""
+    """Holds up each change of a clip, when it has been made, until it is opened; *fail* makes it an error."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self._open = threading.Event()
@@ -38,11 +39,12 @@ class Gate:
 
     def _put(self, clip: Clip, change: Change, touched: Touched, *, read_back: bool = True) -> Change:
         self.threads.append(threading.current_thread())
+        if self.fail and threading.current_thread() is not threading.main_thread():
+            raise ValueError("it cannot be")
+        stored = put(clip, change, touched, read_back=read_back)
         if threading.current_thread() is not threading.main_thread():
             self._open.wait(20)
-            if self.fail:
-                raise ValueError("it cannot be")
-        return put(clip, change, touched, read_back=read_back)
+        return stored
 
     def open(self) -> None:
         self._open.set()
@@ -117,10 +119,11 @@ def test_nobody_is_told_and_nothing_is_refreshed_before_all_is_done(window: Main
     window.view.router.tool.hover = listen("hover")  # type: ignore[method-assign, assignment]
     QTest.mouseMove(window.view.viewport(), QPoint(300, 200))
     window.view.router.look_again()
+    Soon(window, listen("soon"), document=window.document).ask()
     meanwhile(lambda: QTest.qWait(150), gate.open)
     nudge(window)
     QTest.qWait(200)
-    assert {name for name, _ in told} >= {"changed", "committed", "tool"}
+    assert {name for name, _ in told} >= {"changed", "committed", "tool", "soon"}
     assert not any(working for _, working in told)
 
 

@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
 from model import edits
+from model.document import Membership
 from model.selection import Selection
 from tests.widgets.desk import TIMES, Desk, beside
 from tests.widgets.hand import CTRL, PLAIN, SHIFT, Spot
@@ -97,11 +98,22 @@ def test_the_box_is_around_the_keys_that_may_be_edited_and_follows_a_lock(desk: 
     desk.session.selection = Selection.of({desk.low: [2, 3, 4], desk.high: [1, 5]})
     assert frame_now(desk).box.width() > alone.box.width() + seconds(desk, 1.5)
     desk.document.do("Lock", lambda clip: edits.set_setting(clip, [desk.high], "locked", True))
-    tool = desk.view.router.tool
-    assert isinstance(tool, ScaleTool)
-    frame = tool.frame()
-    assert frame is not None
-    assert frame[1] == alone.box
+    assert frame_now(desk).box == alone.box
+
+
+def test_the_box_leaves_out_a_channel_that_is_hidden_or_gone(desk: Desk) -> None:
+    alone = begin(desk, "scale", 2, 3, 4)
+    desk.session.selection = both = Selection.of({desk.low: [2, 3, 4], desk.high: [1, 5]})
+    wide = frame_now(desk).box
+    desk.session.hidden = frozenset({desk.high})
+    assert frame_now(desk).box == alone.box
+    desk.session.hidden = frozenset()
+    desk.session.selection = both
+    assert frame_now(desk).box == wide
+    channels = tuple(desk.document.clip.channels)
+    left = tuple(channel for channel in channels if channel is not desk.high)
+    desk.document.do("Remove", lambda clip: [Membership(channels, left)])
+    assert frame_now(desk).box == alone.box
 
 
 def test_the_box_follows_an_edit(desk: Desk) -> None:
