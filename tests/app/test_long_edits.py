@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPoint, Qt
-from PySide6.QtGui import QImage, QKeyEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QImage, QKeyEvent, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit
 from pytestqt.qtbot import QtBot
@@ -296,3 +296,20 @@ def test_a_click_elsewhere_does_not_move_the_focus(window: MainWindow, gate: Gat
     assert window.focusWidget() is line
     click()
     assert window.focusWidget() is other
+
+
+def test_the_wheel_does_not_move_the_view_meanwhile(window: MainWindow, gate: Gate) -> None:
+    viewport, before = window.view.viewport(), window.view.view_range
+    spot = QPointF(viewport.rect().center())
+    none, phase = Qt.MouseButton.NoButton, Qt.ScrollPhase.NoScrollPhase
+
+    def turn() -> None:
+        there = QPointF(viewport.mapToGlobal(spot))
+        held = Qt.KeyboardModifier.NoModifier
+        QApplication.sendEvent(viewport, QWheelEvent(spot, there, QPoint(), QPoint(0, 120), none, held, phase, False))
+
+    meanwhile(turn, gate.open)
+    nudge(window)
+    assert window.view.view_range == before
+    turn()
+    assert window.view.view_range != before
