@@ -128,7 +128,7 @@ def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[Loss]:
     for kind, lost in _kinds_of_loss(wanted, held):
         where = np.flatnonzero(lost)
         if len(where):
-            channels = np.unique(np.searchsorted(ends, where, side="right")).tolist()
+            channels = np.flatnonzero(np.diff(np.searchsorted(where, ends), prepend=0)).tolist()
             keys = f"{counted(len(where), 'key')} of {_these([names[i] for i in channels])}"
             yield Loss(kind.what, f"{keys} {kind.one if len(where) == 1 else kind.many}", kind.in_motion)
 
@@ -156,11 +156,12 @@ def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[_Kind, NDArray[np.bool_]]]:
     moved = (_bits(a["time"]) != _bits(b["time"])) | (_bits(a["value"]) != _bits(b["value"]))
     yield _Kind("the place of keys", "is moved", "are moved", in_motion=True), moved
     for side in ("in", "out"):
-        rules, others = a[f"rule_{side}"], b[f"rule_{side}"]
+        rules, others = (np.ascontiguousarray(run[f"rule_{side}"]) for run in (a, b))
         changed = rules != others
-        pairs = zip(rules[changed].tolist(), others[changed].tolist(), strict=True)
-        for rule, other in sorted(set(pairs)):
-            yield _rule_lost(TangentRule(rule), TangentRule(other), side), (rules == rule) & (others == other)
+        pairs = (rules << 4) + others
+        for pair in np.flatnonzero(np.bincount(pairs[changed])).tolist():
+            rule, other = divmod(pair, 16)
+            yield _rule_lost(TangentRule(rule), TangentRule(other), side), pairs == pair
         slopes = _bits(a[f"slope_{side}"]) != _bits(b[f"slope_{side}"])
         slope = f"another slope on the {side} side"
         yield _Kind("slopes", f"gets {slope}", f"get {slope}", in_motion=True), slopes & ~changed & (rules == _FIXED)

