@@ -17,8 +17,8 @@ from model.keyframe import TangentRule
 from model.rows import AT_A_TIME, RULE_OUT, TIME, VALUE, A, B, C, Rows, Slots
 
 BLOCK = 32
-# Up to so many spans a pair of ends, those between two pairs included, one pass is quicker than looking for blocks.
-DIRECT = 500
+# Up to so many spans, those between two pairs of ends and behind the last included, one pass is quicker than blocks.
+DIRECT = 20_000
 
 type Range = tuple[Floats, Floats]
 
@@ -51,7 +51,7 @@ class Extremes:
         """The ranges over the slots from *starts* up to before *ends*, pair by pair; (inf, -inf) over none."""
         cuts = np.minimum(np.stack([starts, ends], axis=1).reshape(-1), len(self.low) - 1)
         passed = int(np.maximum(cuts[1:] - cuts[:-1], 0).sum())
-        if passed <= DIRECT * len(starts):
+        if passed + len(self.low) <= DIRECT:
             low, high = np.minimum.reduceat(self.low, cuts)[::2], np.maximum.reduceat(self.high, cuts)[::2]
             none = starts >= ends
             low[none], high[none] = np.inf, -np.inf
@@ -59,21 +59,22 @@ class Extremes:
         size = self.block
         first, last = -(-starts // size), ends // size
         low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
-        whole = np.flatnonzero(first < last)
+        (whole,) = (first < last).nonzero()
         if len(whole):
             cuts = np.stack([first[whole], last[whole]], axis=1).reshape(-1)
             low[whole] = np.minimum.reduceat(self.block_low, cuts)[::2]
             high[whole] = np.maximum.reduceat(self.block_high, cuts)[::2]
         # What is left at both ends is shorter than a block.
-        step = np.arange(size)
         for begin, end in ((starts, np.minimum(ends, first * size)), (np.maximum(starts, last * size), ends)):
-            some = np.flatnonzero(begin < end)
+            (some,) = (begin < end).nonzero()
             if len(some):
-                slots = begin[some, None] + step
-                inside = slots < end[some, None]
-                slots = np.where(inside, slots, begin[some, None])
-                low[some] = np.minimum(low[some], self.low[slots].min(axis=1))
-                high[some] = np.maximum(high[some], self.high[slots].max(axis=1))
+                begins = begin.take(some)
+                counts = end.take(some) - begins
+                firsts = counts.cumsum() - counts
+                slots = (begins - firsts).repeat(counts)
+                slots += np.arange(len(slots))
+                low[some] = np.minimum(low.take(some), np.minimum.reduceat(self.low.take(slots), firsts))
+                high[some] = np.maximum(high.take(some), np.maximum.reduceat(self.high.take(slots), firsts))
         return low, high
 
 

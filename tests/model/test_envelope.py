@@ -132,6 +132,21 @@ def test_one_spike_among_many_keys_is_seen_in_every_column_that_holds_it() -> No
             assert high[column] == 1e6
 
 
+@pytest.mark.parametrize("columns", [1, 5, 37, 700, 9_000, 90_000])
+def test_columns_of_very_many_straight_spans_are_what_their_keys_and_edges_show(columns: int) -> None:
+    n = 60_000
+    values = np.random.default_rng(columns).normal(size=n).cumsum()
+    channel = Channel("x", make_run(np.arange(n) / 30.0, values, 0, 0, TangentRule.LINEAR, TangentRule.LINEAR))
+    edges = np.linspace(3.01, (n - 77) / 30.0, columns + 1)
+    low, high = channel.envelope(edges)
+    times = np.concatenate([edges, np.arange(n) / 30.0])
+    order = np.argsort(times, kind="stable")
+    seen = np.concatenate([channel.evaluate(edges), values])[order]
+    at = np.flatnonzero(order < len(edges))
+    assert low == pytest.approx([seen[i : j + 1].min() for i, j in pairwise(at.tolist())], abs=1e-9)
+    assert high == pytest.approx([seen[i : j + 1].max() for i, j in pairwise(at.tolist())], abs=1e-9)
+
+
 @given(channels(least=1, most=5), st.data())
 def test_what_is_known_of_old_keys_is_forgotten(channel: Channel, data: st.DataObject) -> None:
     edges = np.linspace(-120.0, 120.0, 30)
