@@ -144,8 +144,12 @@ def _pieces(table: Floats, sideways: float) -> tuple[NDArray[np.intp], NDArray[n
     most = wide * (0.4 / sideways)
     # Two points moved onto extrema may stretch the piece between them to twice its length.
     turning &= pieces > 1.0
-    np.multiply(pieces, 2.0, out=pieces, where=turning)
-    np.maximum(most * 2, 2.0, out=most, where=turning)
+    stretch = turning + 1.0
+    pieces *= stretch
+    most *= stretch
+    stretch -= 1.0
+    stretch *= 2.0
+    np.maximum(most, stretch, out=most)
     np.minimum(pieces, most, out=pieces)
     if not pieces.max() <= MOST_PIECES:
         pieces = np.minimum(np.nan_to_num(pieces, nan=MOST_PIECES, posinf=MOST_PIECES), MOST_PIECES)
