@@ -320,7 +320,10 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]
             if each is not None and each.kind == "curve":
                 self.canvas.repaint_all()
             elif each is not None and each.channel is not None:
-                self.canvas.repaint_times(each.time, each.time)
+                time = each.time  # the ring is where the key is now, since an undo may have moved it
+                if each.id and each.id in each.channel:
+                    time = each.channel.key(each.id).time
+                self.canvas.repaint_times(min(time, each.time), max(time, each.time))
 
     def set_box(self, box: QRectF | None) -> None:
         """Show the selection box."""

@@ -271,6 +271,21 @@ def test_something_in_view_ends_the_words_about_nothing_whichever_channel_it_is(
         assert (shown == screen.painted_anew()).all()
 
 
+def test_the_ring_of_a_key_that_an_undo_moved_away_goes_with_the_pointer(qtbot: QtBot) -> None:
+    channel = Channel("a", make_run([0.0, 5.0, 10.0], [0.0, 4.0, 1.0]))
+    view = view_of(Clip([channel]))
+    qtbot.addWidget(view)
+    screen, key = Screen(view), Selection.of_key(channel, 2)
+    edit = view.document.do("Move", lambda clip: edits.move(clip, key, 3.0, 0.5))
+    assert edit is not None
+    view.set_hover(Hit("key", channel, 2, 8.0, 4.5))
+    screen.shown()
+    view.document.apply(edit.inverse())
+    screen.shown()
+    view.set_hover(None)
+    assert (screen.shown() == screen.painted_anew()).all()
+
+
 def test_one_key_too_many_makes_all_lines_hard(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("widgets.traces.MOST_SOFT_KEYS", 6)
     channels = [

@@ -131,3 +131,13 @@ def test_an_end_of_the_range_under_the_playhead_is_taken_from_outside_and_the_pl
         x = float(graph.x_from_time(time))
         assert hit_ruler(graph, x + 4 * outwards, 10).kind == kind
         assert hit_ruler(graph, x - 4 * outwards, 10).kind == "playhead"
+
+
+def test_of_keys_too_many_for_a_pixel_the_curve_is_hit_and_none_of_them() -> None:
+    times = np.linspace(2.0, 2.02, 200_001)
+    graph = graph_of(Channel("many", make_run(times, np.where(np.arange(200_001) % 2, 1.0, 2.0))))
+    x = float(graph.x_from_time(2.01))
+    assert hit(graph, x, float(graph.y_from_value(1.5))).kind == "curve"
+    assert hit(graph, x, float(graph.y_from_value(2.0))).kind == "curve"
+    assert hit(graph, x, float(graph.y_from_value(2.5))).kind == "empty"
+    assert hit(graph, x + 40.0, float(graph.y_from_value(2.0))).kind in ("curve", "empty")
