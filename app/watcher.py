@@ -25,6 +25,7 @@ class Watcher(QObject):
         super().__init__(window)
         self._window = window
         self._in_gesture = False
+        self._index = 0
         # While the mouse is at work shortcuts wait anyway, so what a selection box changes is looked at now and then.
         self._later = Soon(self, self.refresh, document=window.document)
         self._listen_to_document()
@@ -44,6 +45,7 @@ class Watcher(QObject):
     def _listen_to_widgets(self) -> None:
         window = self._window
         window.undo_stack.indexChanged.connect(self._history_moved)
+        window.undo_stack.indexChanged.connect(self._undone)
         window.undo_stack.cleanChanged.connect(self._history_moved)
         window.files.changed.connect(window.refresh_title)
         window.view.view_changed.connect(Soon(self, self._view_moved).ask)
@@ -82,6 +84,13 @@ class Watcher(QObject):
         ):  # previews change nothing that an action asks about
             self._in_gesture = in_gesture
             self._window.actions_by_id["edit.undo"].refresh({})
+            if in_gesture:  # what was said of the change before is over
+                self._window.say("")
+
+    def _undone(self, index: int) -> None:
+        if index < self._index:
+            self._window.say("")
+        self._index = index
 
     def _committed(self, edit: Edit) -> None:
         if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen

@@ -141,9 +141,8 @@ def worded(numbers: Floats, step: float, fits: Callable[[str], bool]) -> tuple[t
     rest = numbers - base
     if base == 0.0 or not fits(plain(float(np.abs(rest).max()), decimals)):
         scale = 10.0 ** floor(log10(step) + 1e-9)
-        return tuple(plain(number, 0) for number in (rest / scale).tolist()), _offset(
-            base, step
-        ) + f" × {power(scale, 0)}"
+        labels = tuple(plain(number, 0) for number in (rest / scale).tolist())
+        return labels, f"× {power(scale, 0)} {_offset(base, step)}".strip()
     return tuple(plain(number, decimals) for number in rest.tolist()), _offset(base, step)
 
 

@@ -242,6 +242,17 @@ def test_an_empty_clip_opens(make_window: MakeWindow) -> None:
     assert window.undo_stack.count() == 0
 
 
+def test_a_message_about_a_change_ends_with_the_next_one_and_with_its_undo(window: MainWindow) -> None:
+    window.actions_by_id["edit.select_all"].run()
+    window.actions_by_id["key.up"].run()
+    window.say("Move 1 key, replacing 1 key")
+    window.actions_by_id["edit.undo"].run()
+    assert window.status.message.text() == ""
+    window.say("Move 1 key: cancelled")
+    window.actions_by_id["key.up"].run()
+    assert window.status.message.text() == ""
+
+
 def test_an_unfinished_formula_is_what_undo_names_and_takes_back(window: MainWindow) -> None:
     window.actions_by_id["edit.select_all"].run()
     window.actions_by_id["key.up"].run()
