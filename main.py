@@ -60,6 +60,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         from app.commands import run
 
         return run(words)
+    if words and words[0].isalpha() and not os.path.exists(words[0]):
+        from app.commands import COMMANDS
+
+        print(f"There is no file and no command {words[0]!r}; the commands are {', '.join(COMMANDS)}.", file=sys.stderr)
+        return 2
     options = parser().parse_args(words)
 
     from app.preflight import window_problem

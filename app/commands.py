@@ -273,6 +273,8 @@ def _render(arguments: argparse.Namespace) -> None:
         raise CommandError(f"{arguments.out}: not written, since it is a clip and -o names a picture, as in walk.png")
     clip = read_clip(arguments.file, skeleton=arguments.skel)
     channels = _chosen(clip, arguments.channel)
+    if not arguments.out.lower().endswith(".png"):
+        raise CommandError(f"{arguments.out}: not written, since pictures are PNG files: name it with .png at the end")
     from app.render import render
 
     render(clip, channels, arguments.out, size=arguments.size, start=arguments.start, end=arguments.end)

@@ -81,6 +81,15 @@ def test_help_and_version_come_without_qt_and_without_a_screen() -> None:
     assert "numpy" not in told.stderr
 
 
+def test_a_mistyped_command_is_one_sentence_and_no_window() -> None:
+    for words in (("frob",), ("frob", "walk.anim")):
+        told = main_py(*words)
+        assert told.returncode == 2
+        assert "'frob'" in told.stderr
+        assert "convert" in told.stderr
+        assert len(told.stderr.splitlines()) == 1
+
+
 def test_the_window_starts_without_a_look_into_the_source_of_its_modules() -> None:
     code = (
         "import inspect; from app.quick_start import spare_sources; spare_sources(); read = []; "

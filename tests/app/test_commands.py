@@ -305,3 +305,12 @@ def test_a_closed_output_is_told_in_one_sentence() -> None:
     )
     assert done.returncode == 2
     assert done.stderr == "there is nowhere to print to: the output is closed\n"
+
+
+def test_a_picture_of_another_kind_than_png_is_not_written_under_its_name(
+    hermite: Hermite, walk: Path, tmp_path: Path
+) -> None:
+    picture = tmp_path / "curves.jpg"
+    code, _, told = hermite("render", walk, "-o", picture)
+    assert (code, picture.exists()) == (2, False)
+    assert ".png" in told
