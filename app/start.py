@@ -79,11 +79,14 @@ def _fill(
         opened = None if late else open_clip(path or str(FIRST_SAMPLE), skel)
     except FormatError as error:
         problem, advice = str(error), error.advice
+    # An expose of the window system may come in between: what is half laid out is not to be seen.
+    window.setUpdatesEnabled(False)
     try:
         window.assemble(opened=opened)
     except Exception:
         QApplication.exit(1)  # there is nothing to go on with; the report says what was wrong
         raise
+    QTimer.singleShot(0, window, partial(window.setUpdatesEnabled, True))
     reports.reported.connect(window.crash_bar.show_report)
     if problem and first_picture is not None:
         print(problem, file=sys.stderr)
