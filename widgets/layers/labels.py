@@ -1,6 +1,7 @@
 """Names at the lines' ends, none over another; and the words that help when there is nothing to see."""
 
 from collections.abc import Sequence
+from itertools import islice
 from math import inf, nan
 from typing import Final
 
@@ -23,8 +24,10 @@ LONGEST: Final = 0.3
 def labels_of(stage: Stage) -> tuple[Label, ...]:
     """Where the names go: at the right edge, level with the lines, pushed apart where they would overlap."""
     window = stage.window
-    traces = [trace for trace in (*stage.resting, *stage.live) if len(trace.channel)]
-    named = traces if len(traces) <= MOST else [trace for trace in traces if trace.active]
+    traces = (*stage.resting, *stage.live)
+    named = list(islice((trace for trace in traces if len(trace.channel)), MOST + 1))
+    if len(named) > MOST:
+        named = [trace for trace in traces if trace.active and len(trace.channel)]
     if not named:
         return ()
     words = stage.words(SIZE)
