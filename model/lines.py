@@ -244,7 +244,8 @@ def straight_dashes(rays: Floats, dash: float, gap: float, anchor: float, left: 
     begin = start - (start - anchor) % ((dash + gap) / stretch)
     near, far = (low - begin) * stretch, (high - begin) * stretch
     pieces, ray = _cut((dash, gap), begin, y + (begin - x) * slope, 1 / stretch, slope / stretch, near, far)
-    return np.split(pieces, np.searchsorted(ray, np.arange(1, len(rays))))
+    cuts = [*ray.searchsorted(np.arange(len(rays))).tolist(), len(pieces)]
+    return [pieces[i:j] for i, j in pairwise(cuts)]
 
 
 def _cut(

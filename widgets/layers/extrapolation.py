@@ -31,12 +31,13 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     rays: dict[int, Ray] = {}
     # A dash that is cut here must lie beside what is painted: its slope is not quite that of the whole one.
     reach = REACH + DASH[0] * window.unit
+    left, t0, per_second = window.left, window.t0, window.px_per_second
     for trace in traces:
         ends = trace.channel.ends()
         if ends is None:
             continue
         for after, time, value in ((False, ends.time0, ends.value0), (True, ends.time1, ends.value1)):
-            edge = window.x_from_time(time)
+            edge = left + (time - t0) * per_second
             low, high = (max(x0, edge), x1) if after else (x0, min(x1, edge))
             if low > high:
                 continue
@@ -51,7 +52,7 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
     # Cut together, as nearly all work on a few dashes is fixed; painted in turn, so that the same ones lie on top.
     dash, gap = (part * window.unit for part in DASH)
     anchor = window.x_from_time(0.0)
-    cut = straight_dashes(np.array(list(rays.values())), dash, gap, anchor, window.left) if rays else []
+    cut = straight_dashes(np.array(list(rays.values())), dash, gap, anchor, left) if rays else []
     lines = dict(zip(rays, cut, strict=True))
     for i, (trace, after, low, high) in enumerate(sides):
         if i in lines and i + 1 in lines and sides[i + 1][0] is trace:
