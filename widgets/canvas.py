@@ -15,7 +15,7 @@ from model.event import Event
 from model.sampling import Window
 from model.selection import Selection
 from widgets import rulers
-from widgets.backdrop import Backdrop
+from widgets.backdrop import SLICE, Backdrop
 from widgets.chosen import MOST
 from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
@@ -208,17 +208,17 @@ class Canvas(QGraphicsItem):
     def settle(self) -> None:
         """Finish the picture that is being refined, now."""
         while self._stage is not None and self.backdrop.busy:
-            self._refine()
+            self._refine(inf)
             if self._stage is not None:
                 self.backdrop.prepare(self._stage)
 
-    def _refine(self) -> None:
+    def _refine(self, seconds: float = SLICE) -> None:
         if self._document.working:
             return
         self._moving = False
         if self._stage is None or not self.backdrop.busy:
             return
-        if self.backdrop.refine(self.stage(self._stage.window.unit)):
+        if self.backdrop.refine(self.stage(self._stage.window.unit), seconds):
             self.repaint_all()
         elif self.backdrop.busy:
             self._timer.start(0)
