@@ -94,8 +94,22 @@ def save_clip(content: Content, path: str, format_name: str, leave: Leave, repor
         return Doubt(lost, overwrites_another=False)
     if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
         return Doubt(lost, overwrites_another=True)
-    result = save_content(content, path, format_name, part_of(report, 0.05, 0.95))
-    return Saved(result, lost, fingerprint_of(path))
+    found: list[Fingerprint] = []
+
+    def last_look(data: bytes, status: os.stat_result) -> None:
+        if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
+            raise _OverwritesError
+        found.append(Fingerprint(status.st_dev, status.st_ino, status.st_mtime_ns, status.st_size, digest_of(data)))
+
+    try:
+        result = save_content(content, path, format_name, part_of(report, 0.05, 1.0), last_look)
+    except _OverwritesError:
+        return Doubt(lost, overwrites_another=True)
+    return Saved(result, lost, found[0])
+
+
+class _OverwritesError(Exception):
+    """Another program has written the file while it was being saved."""
 
 
 def fingerprint_of(path: str) -> Fingerprint | None:

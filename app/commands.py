@@ -66,7 +66,8 @@ def _drop_output_left() -> None:
 
 
 def _refused(sentence: str) -> int:
-    print(_printable(sentence), file=sys.stderr)
+    if sys.stderr is not None:  # closed: print would take the output instead
+        print(_printable(sentence), file=sys.stderr)
     return 2
 
 

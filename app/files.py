@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QApplication
 
 from app.clip_file import (
     Doubt,
@@ -257,7 +258,14 @@ class Files(QObject):
         self._window.refresh_actions()
         if self._closing and self._window.jobs.job is None:
             self._closing = False
-            QTimer.singleShot(0, self._window, self._window.close)
+            QTimer.singleShot(0, self._window, self._close)
+
+    def _close(self) -> None:
+        """Close the window that waited for a job, when what is to be said of the job has been read."""
+        if QApplication.activeModalWidget() is None:
+            self._window.close()
+        else:
+            QTimer.singleShot(50, self._window, self._close)
 
     def _busy(self) -> bool:
         """Whether a file is being read or written, so that no other can be now; it is said then."""

@@ -103,7 +103,22 @@ class UndoStack(QUndoStack):
             QTimer.singleShot(0, self._drop_history)
             raise
 
+    @guarded()
+    def undo(self) -> None:
+        """Take the last step back; nothing while a step is being taken already."""
+        if not self._document.working:
+            super().undo()
+
+    @guarded()
+    def redo(self) -> None:
+        """Make the next step again; nothing while a step is being taken already."""
+        if not self._document.working:
+            super().redo()
+
     def _drop_history(self) -> None:
+        if self._document.working:  # a step of this history is under way
+            QTimer.singleShot(50, self, self._drop_history)
+            return
         self._history += 1
         self.clear()
         self.resetClean()

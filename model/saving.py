@@ -17,6 +17,7 @@ from model.formats.content import Content, differences
 from model.progress import Report, part_of, unheard
 
 type Verify = Callable[[bytes], None]
+type LastLook = Callable[[bytes, os.stat_result], None]
 
 _SUFFIX: Final = ".hermite-tmp"
 # Absent on some systems, where files behave so anyway (no inheritance, binary mode) or the protection does not exist.
@@ -66,7 +67,11 @@ def save_clip(clip: Clip, path: str | os.PathLike[str], format_name: str | None 
 
 
 def save_content(
-    content: Content, path: str | os.PathLike[str], format_name: str, report: Report = unheard
+    content: Content,
+    path: str | os.PathLike[str],
+    format_name: str,
+    report: Report = unheard,
+    last_look: LastLook | None = None,
 ) -> SaveResult:
     """The same of what a clip held. A CancelledError from *report* leaves the old file untouched too."""
     name = os.fspath(path)
@@ -78,21 +83,24 @@ def save_content(
         if lost:
             raise SaveError(name, f"what was written is not the clip ({lost[0]})")
 
-    return save_atomic(name, data, verify=verify)
+    return save_atomic(name, data, verify=verify, last_look=last_look)
 
 
-def save_atomic(path: str | os.PathLike[str], data: bytes, *, verify: Verify | None = None) -> SaveResult:
+def save_atomic(
+    path: str | os.PathLike[str], data: bytes, *, verify: Verify | None = None, last_look: LastLook | None = None
+) -> SaveResult:
     """Put *data* in the place of the file at *path*, or of the file that a link there leads to.
 
-    *verify* gets *data* once the disk has given back the same bytes, and raises if they are not right. Raises SaveError
-    (and whatever *verify* raises): then the old file is untouched. Mode, owner and attributes are kept as far as the
-    system allows.
+    *verify* gets *data* once the disk has given back the same bytes, and raises if they are not right; *last_look* gets
+    them and what the new file is, at the last moment at which the old one is still in its place. Raises SaveError (and
+    whatever these two raise): then the old file is untouched. Mode, owner and attributes are kept as far as the system
+    allows.
     """
     name = os.fspath(path)
     try:
         target = os.path.realpath(name)
         status = _status_of(name, target)
-        notes = _replace(target, status, data, verify)
+        notes = _replace(target, status, data, verify, last_look)
     except (SaveError, FormatError):
         raise
     except (OSError, ValueError) as error:
@@ -121,7 +129,9 @@ def _status_of(name: str, target: str) -> os.stat_result | None:
     return status
 
 
-def _replace(target: str, status: os.stat_result | None, data: bytes, verify: Verify | None) -> list[str]:
+def _replace(
+    target: str, status: os.stat_result | None, data: bytes, verify: Verify | None, last_look: LastLook | None
+) -> list[str]:
     """Write *data* beside *target*, check it and rename it; returns notes for the user."""
     temp = _temp_path(target)
     # A new file gets the mode that the user's umask asks for, from the system itself.
@@ -132,17 +142,34 @@ def _replace(target: str, status: os.stat_result | None, data: bytes, verify: Ve
             notes = _keep_attributes(handle, target, status)
             _sync(handle)  # a failed sync is final: a second one may report success for pages that are lost
             same = _holds(handle, data)
+            written = os.fstat(handle)
         finally:
             os.close(handle)
         if not same:
             raise OSError(errno.EIO, "the disk gave back other bytes than were written")
         if verify is not None:
             verify(data)  # what has just been read back
+        if _version(os.stat(temp)) != _version(written) and not _still_holds(temp, data):  # checking takes its time
+            raise OSError(errno.EIO, "the new file was changed by something else before it was in its place")
+        if last_look is not None:
+            last_look(data, written)
         os.replace(temp, target)
     except BaseException:
         _remove(temp)
         raise
     return notes
+
+
+def _still_holds(temp: str, data: bytes) -> bool:
+    handle = os.open(temp, os.O_RDONLY | _FLAGS)
+    try:
+        return _holds(handle, data)
+    finally:
+        os.close(handle)
+
+
+def _version(status: os.stat_result) -> tuple[int, int, int]:
+    return status.st_ino, status.st_size, status.st_mtime_ns
 
 
 def _write_all(handle: int, data: bytes) -> None:

@@ -1,13 +1,17 @@
 """A file that another program writes is noticed; one that is only touched is not."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import app.clip_file
-from app.clip_file import changed_since, fingerprint_of, open_clip
-from model.formats import FormatError, read_file
+import model.saving
+from app.clip_file import Doubt, Leave, Saved, changed_since, fingerprint_of, open_clip, save_clip
+from model.formats import FormatError, Loss, read_file
+from model.formats.content import Content
+from model.saving import SaveError
 
 CLIP = b"""animation {
   range 0 1
@@ -71,3 +75,44 @@ def test_a_file_that_is_written_while_it_is_read_counts_as_changed(path: Path, m
 def test_what_cannot_be_read_is_one_sentence_that_names_the_file(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"nothing\.anim"):
         open_clip(str(tmp_path / "nothing.anim"))
+
+
+def saved_while(path: Path, monkeypatch: pytest.MonkeyPatch, meanwhile: Callable[[], None]) -> Saved | Doubt:
+    """Save the clip to its file, with something happening while what was written is being checked."""
+    opened = open_clip(str(path))
+
+    def differences(*contents: Content) -> list[Loss]:
+        meanwhile()
+        return []
+
+    monkeypatch.setattr(model.saving, "differences", differences)
+    return save_clip(Content.of(opened.clip), str(path), "anim", Leave([], opened.fingerprint, whatever=False))
+
+
+def test_what_another_program_writes_during_a_save_is_not_overwritten(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    other = CLIP.replace(b"0 1 flat", b"0 2 flat")
+    saved = saved_while(path, monkeypatch, lambda: path.write_bytes(other) and None)
+    assert saved == Doubt([], overwrites_another=True)
+    assert path.read_bytes() == other
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_new_file_that_is_damaged_before_it_is_in_its_place_does_not_get_there(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def damage() -> None:
+        temp = next(file for file in path.parent.iterdir() if file != path)
+        os.truncate(temp, 10)
+
+    with pytest.raises(SaveError, match="changed by something else"):
+        saved_while(path, monkeypatch, damage)
+    assert path.read_bytes() == CLIP
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_saved_file_is_known_as_it_is(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    saved = saved_while(path, monkeypatch, lambda: None)
+    assert isinstance(saved, Saved)
+    assert saved.fingerprint == fingerprint_of(str(path))
