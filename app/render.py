@@ -66,6 +66,6 @@ def png_of(image: QImage) -> bytes:
     """The picture as the bytes of a PNG file; SaveError if it cannot be encoded."""
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    if not image.save(buffer, "PNG"):  # type: ignore[call-overload]
+    if not image.save(buffer, "PNG"):  # type: ignore[call-overload]  # Qt takes the name as text
         raise SaveError("the picture", "it could not be encoded as PNG")
     return bytes(buffer.data().data())

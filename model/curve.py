@@ -231,7 +231,7 @@ class Curve:
         if rank < 0 or time > self._the_ends().time1 or time < self._the_ends().time0:
             return None
         spans = self._spans(rank, rank + 1)
-        return tuple(float(column[0]) for column in spans)  # type: ignore[return-value]
+        return tuple(float(column[0]) for column in spans)  # type: ignore[return-value]  # as many as there are columns
 
     def _spans(self, rank0: int, rank1: int) -> Spans:
         numbers = self._rows.columns(rank0, rank1 + 1)

@@ -38,7 +38,7 @@ ONE_STEP: Final = 0.6
 START: Final = ViewRange(-0.1, 1.1, -0.1, 1.1)
 
 
-class CurveView(pg.PlotWidget):  # type: ignore[misc]
+class CurveView(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
     """The curves of a document's shown channels; sizes are logical pixels of the viewport."""
 
     view_changed = Signal()
