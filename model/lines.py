@@ -47,29 +47,25 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         table = _in_pixels(spans, window)
         n, turning = _pieces(table, sideways)
-        points = n + 1
         borders = np.cumsum(lengths)[:-1] if len(many) > 1 else None
-        points[:-1] -= _joined(table, borders)
+        open_ends = np.ones(len(n), np.bool_)
+        open_ends[:-1] = ~_joined(table, borders)
+        points = n + open_ends
         ends = points.cumsum()
         starts = ends - points
-        which = np.arange(len(n)).repeat(points)
-        u = np.arange(float(ends[-1]))
-        u -= starts.take(which)
-        u /= n.take(which)
-        _set_extrema(u, table, n, starts, turning)
-        x0, wide, d, c, b, y = table.take(which, axis=1)
-        for factor in (b, c, d):
-            y *= u
-            y += factor
-        x = u
-        x *= wide
-        x += x0
+        x, y = np.empty((2, int(ends[-1])))
+        x[starts], y[starts] = table[0], table[2]
+        (some,) = open_ends.nonzero()
+        x[ends[some] - 1], y[ends[some] - 1] = _at(table.take(some, axis=1), 1.0)
+        inside, which, u = _inner(table, n, turning, starts)
+        x[inside], y[inside] = _at(table.take(which, axis=1), u)
+        span = np.arange(len(n)).repeat(points)
     near = bool(y.min() >= -FAR and y.max() <= FAR and x.min() >= -FAR and x.max() <= FAR)
     if borders is None:
-        lines = [Line(x, y, which)]
+        lines = [Line(x, y, span)]
     else:
         cuts = [0, *np.concatenate(([0], ends))[borders].tolist(), len(x)]
-        lines = [Line(x[i:j], y[i:j], which[i:j]) for i, j in pairwise(cuts)]
+        lines = [Line(x[i:j], y[i:j], span[i:j]) for i, j in pairwise(cuts)]
     return lines if near else [kept_near(*line) for line in lines]
 
 
@@ -132,9 +128,10 @@ def _pieces(table: Floats, sideways: float) -> tuple[NDArray[np.intp], NDArray[n
     rise += bend
     rise *= c
     cubic *= c
-    # The slope is 0 between the ends if it changes sides, or twice if it bends back and reaches 0 between.
+    # The slope is 0 between the ends if it changes sides, or twice if it bends back and reaches 0 between: for that it
+    # must first come nearer to 0, so that the third derivative has the slope's sign.
     turning = ~(rise > 0.0)
-    turning |= ((b < 0.0) != (bend < 0.0)) & ~(b * b < cubic)
+    turning |= (cubic > 0.0) & ((b < 0.0) != (bend < 0.0)) & ~(b * b < cubic)
     # A chord leaves a cubic by an eighth of the second derivative times its length squared.
     np.abs(bend, out=bend)
     np.maximum(bend, np.abs(b), out=bend)
@@ -158,8 +155,35 @@ def _pieces(table: Floats, sideways: float) -> tuple[NDArray[np.intp], NDArray[n
     return pieces.astype(np.intp), turning
 
 
+def _at(table: Floats, u: Floats | float) -> tuple[Floats, Floats]:
+    """The points of spans at *u* from 0 to 1."""
+    x0, x, d, c, b, y = table
+    for factor in (b, c, d):
+        y *= u
+        y += factor
+    x *= u
+    x += x0
+    return x, y
+
+
+def _inner(
+    table: Floats, n: NDArray[np.intp], turning: NDArray[np.bool_], starts: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+    """The points between the pieces of each span: their places in the chain, their spans and where in these."""
+    inner = n - 1
+    ends = inner.cumsum()
+    which = np.arange(len(n)).repeat(inner)
+    first = ends - inner
+    place = np.arange(1, len(which) + 1)
+    place -= first.take(which)
+    u: Floats = place / n.take(which)
+    place += starts.take(which)
+    _set_extrema(u, table, n, first, turning)
+    return place, which, u
+
+
 def _set_extrema(
-    u: Floats, table: Floats, n: NDArray[np.intp], starts: NDArray[np.intp], turning: NDArray[np.bool_]
+    u: Floats, table: Floats, n: NDArray[np.intp], first: NDArray[np.intp], turning: NDArray[np.bool_]
 ) -> None:
     """Move the nearest inner point of each span onto each extremum; a span of one piece has none worth a point."""
     (bent,) = turning.nonzero()
@@ -183,7 +207,8 @@ def _set_extrema(
         last = n.take(span)
         at = np.rint(place * last).astype(np.intp)
         np.minimum(np.maximum(at, 1, out=at), last - 1, out=at)
-        at += starts.take(span)
+        at += first.take(span)
+        at -= 1
         u[at] = place
 
 

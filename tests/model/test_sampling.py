@@ -226,3 +226,15 @@ def test_a_dash_is_the_same_to_the_last_bit_wherever_its_line_begins(slope: floa
         inner = part[part[:, 0] > low + 1e-6]
         assert len(inner) > 5
         assert (inner == whole[len(whole) - len(inner) :]).all()
+
+
+def test_a_narrow_span_is_cut_only_where_it_turns() -> None:
+    window = Window(0, 0, 400, 400, 0, 400, -50, 50)
+    times, values = [0.0, 1.5, 3.0], [0.0, 10.0, 20.0]
+    slopes = {"bends": (1.0, 12.0), "bends back": (1.0, 1.0), "turns": (-30.0, 12.0), "turns twice": (-30.0, -30.0)}
+    pieces = {}
+    for name, (out, into) in slopes.items():
+        run = make_run(times, values, into, out, TangentRule.FIXED, TangentRule.FIXED)
+        line = line_through(Channel("c", run).spans_between(0.0, 1.4), window, 0.8)
+        pieces[name] = len(line.x) - 1
+    assert pieces == {"bends": 1, "bends back": 1, "turns": 2, "turns twice": 2}
