@@ -109,7 +109,7 @@ class Gesture:
     @property
     def covered(self) -> dict[Channel, Run]:
         """The keys of the start that the present preview hides; they come back when it moves on."""
-        if self.keeps_keys:
+        if not self.hides_keys:
             return {}
         gone, come = _ids_by_channel(self._put)
         covered = {}
@@ -125,9 +125,9 @@ class Gesture:
         return covered
 
     @property
-    def keeps_keys(self) -> bool:
-        """Whether the present preview changes keys where they stand in the order, and none comes or goes."""
-        return not self._touched.keys_came_or_went
+    def hides_keys(self) -> bool:
+        """Whether a key of the start may be missing now: not where all that were taken out were put in again."""
+        return self._touched.keys_came_or_went and bool(self._fresh or self.keys_fewer)
 
     @property
     def keys_fewer(self) -> int:
@@ -300,7 +300,7 @@ class Gesture:
         return splice._replace(after=after)
 
     def _without_gone(self, selection: Selection) -> Selection:
-        if self.keeps_keys:
+        if not self.hides_keys:
             return selection
         gone, come = _ids_by_channel(self._put)
         hidden = {

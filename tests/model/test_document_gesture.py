@@ -9,7 +9,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.clipboard import text_from_keys
 from model.document import Change, Splice, added_keys
-from model.keyframe import TangentRule
+from model.keyframe import TangentRule, make_run
 from model.selection import Selection
 from tests.model.editing import Record, channel_of, document_of, everything, ids, select, times
 
@@ -114,10 +114,22 @@ def test_a_key_that_is_landed_on_dims_and_comes_back_when_the_drag_moves_on() ->
     gesture.preview(lambda clip: edits.move(clip, select(channel, 2), 1.5, 0.0))
     assert ids(channel) == [1, 3, 2, 4]
     assert gesture.covered == {}
+    assert not gesture.hides_keys
     gesture.preview(lambda clip: edits.move(clip, select(channel, 2), 2.0, 0.0))
     assert ids(channel) == [1, 3, 2]
     assert gesture.covered[channel]["id"].tolist() == [4]
     gesture.commit()
+
+
+def test_a_new_key_that_lands_on_another_covers_it_though_there_are_as_many_as_before() -> None:
+    channel = channel_of([0.0, 1.0, 2.0, 3.0])
+    document = document_of(channel)
+    gesture = document.begin("Paste")
+    landed = make_run([1.0], 5.0)
+    gesture.preview(lambda clip: [Splice(channel, channel.keys_between(1.0, 1.0), landed)])
+    assert gesture.keys_fewer == 0
+    assert gesture.covered[channel]["id"].tolist() == [2]
+    gesture.cancel()
 
 
 def test_undo_brings_a_covered_key_back_with_its_rules_and_slopes() -> None:
