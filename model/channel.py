@@ -128,6 +128,12 @@ class Channel(Curve):
         a, b, c = (float(column[0]) for column in evaluation.finite_coefficients(self._rows, slot))
         return a, b, c, float(self._rows.numbers[VALUE, slot[0]])
 
+    def keys_around(self, key_id: int) -> tuple[Run, int]:
+        """The key with this id between its neighbours, and its place among them; KeyGoneError if there is none."""
+        rank = self._rows.rank_of(key_id)
+        rank0 = max(rank - 1, 0)
+        return self._rows.run(rank0, min(rank + 2, len(self))), rank - rank0
+
     # --- runs
 
     def _run(self, rank0: int, rank1: int) -> Run:

@@ -103,6 +103,8 @@ class Backdrop:
         self._exact = False
         self._building: Picture | None = None
         self._cost = 0.0
+        # Whether what is shown stands where it is to stand, and only rounding is still to be seen to.
+        self.in_place = False
         self._strips: dict[Channel, list[tuple[float, float]]] = {}
 
     def drop(self) -> None:
@@ -138,6 +140,7 @@ class Backdrop:
         if self._building is None or self._building.look != look:
             self._building = Picture(stage)
         self._scroll(stage)
+        self.in_place = self._window == stage.window and self._look == look
 
     def refine(self, stage: Stage, seconds: float = SLICE) -> bool:
         """Draw a slice of the exact picture; True if there is something new to show."""

@@ -31,6 +31,7 @@ from widgets.words import words_in
 
 if TYPE_CHECKING:
     from widgets.curve_view import CurveView
+    from widgets.layers.handles import Box
 
 # How far, in logical pixels, a key's mark and handles reach beside the curve.
 REACH: Final = LENGTH + 2 * KNOB + 4
@@ -119,7 +120,9 @@ class Canvas(QGraphicsItem):
             self._paint(painter, stage, QRectF(exposed.topLeft() * ratio, exposed.bottomRight() * ratio))
         finally:
             painter.restore()
-        if self.backdrop.busy and not self._timer.isActive():
+        if self.backdrop.busy and self._moving and self.backdrop.in_place:
+            self._timer.start(PAUSE)  # again and again: there is nothing to see until the view rests
+        elif self.backdrop.busy and not self._timer.isActive():
             self._timer.start(PAUSE if self._moving else 0)
 
     def _paint(self, painter: QPainter, stage: Stage, exposed: QRectF) -> None:
@@ -282,20 +285,20 @@ class Canvas(QGraphicsItem):
         self.repaint_times(t0, t1, MARK)
         boxes = [*stage.arms.get(channel, ()), *(handles.box for _, handles in shown_handles(stage, channel))]
         if len(boxes) == 2:  # of one key: they mostly overlap
-            boxes = [boxes[0].united(boxes[1])]
-        window = stage.window
-        margin = MARK * window.unit
+            (left, top, right, bottom), other = boxes
+            boxes = [(min(left, other[0]), min(top, other[1]), max(right, other[2]), max(bottom, other[3]))]
         for box in boxes:
-            left, right = max(box.left() - margin, window.left), min(box.right() + margin, window.right)
-            top, bottom = max(box.top() - margin, window.top), min(box.bottom() + margin, window.bottom)
-            if left < right and top < bottom:
-                sides = (
-                    left / window.unit,
-                    top / window.unit,
-                    (right - left) / window.unit,
-                    (bottom - top) / window.unit,
-                )
-                self.repaint(QRectF(*sides))
+            self._repaint_near(box, stage.window)
+
+    def _repaint_near(self, box: "Box", window: Window) -> None:
+        """Repaint what lies in a box of screen pixels, and marks around it."""
+        unit = window.unit
+        margin = MARK * unit
+        left, right = max(box[0] - margin, window.left), min(box[2] + margin, window.right)
+        top, bottom = max(box[1] - margin, window.top), min(box[3] + margin, window.bottom)
+        if left < right and top < bottom:
+            x, y = floor(left / unit) - 1, floor(top / unit) - 1
+            self._view.viewport().update(x, y, ceil(right / unit) + 1 - x, ceil(bottom / unit) + 1 - y)
 
     def _relabel(self, channel: Channel, t0: float, t1: float) -> None:
         stage = self._stage

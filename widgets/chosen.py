@@ -63,9 +63,8 @@ def few_chosen(stage: "Stage", channel: Channel, ids: Ids) -> tuple[ChosenKey, .
 
 def with_neighbours(channel: Channel, key_id: int) -> ChosenKey:
     """The key with this id; KeyGoneError if there is none."""
-    time = channel.key_field(key_id, "time")
-    near = keys_from(channel.keys_between(time, time, around=1).tolist())
-    i = 0 if near[0].time == time else 1
+    run, i = channel.keys_around(key_id)
+    near = keys_from(run.tolist())
     return ChosenKey(near[i], near[i - 1] if i else None, near[i + 1] if i + 1 < len(near) else None)
 
 

@@ -1,5 +1,6 @@
 """Arrays of numbers straight into QPainter: a thousand lines, boxes or marks in one call."""
 
+from functools import lru_cache
 from typing import Any, Final, cast
 
 import numpy as np
@@ -23,10 +24,21 @@ STROKES: Final = {
 _MOVES: Final = {width: np.tile(strokes, 2)[:, None] for width, strokes in STROKES.items()}
 
 
-def hair(color: QColor) -> QPen:
-    """A pen one pixel wide at every scale, the only one that is quick on long lines."""
-    pen = QPen(color, 1.0)
+def hair(color: QColor, *, flat: bool = False) -> QPen:
+    """A pen one pixel wide at every scale, the only one that is quick on long lines; nobody may change it.
+
+    With *flat* ends a part of a chain looks as in the whole: to make room for other ends, Qt moves the whole first and
+    last piece by up to half a pixel.
+    """
+    return _pen(color.rgba(), flat)
+
+
+@lru_cache(maxsize=1024)
+def _pen(color: int, flat: bool) -> QPen:
+    pen = QPen(QColor.fromRgba(color), 1.0)
     pen.setCosmetic(True)
+    if flat:
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     return pen
 
 

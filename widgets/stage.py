@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF
@@ -21,6 +21,9 @@ from widgets.theme import Theme
 from widgets.ticks import Ticks, ticks_of
 from widgets.traces import Trace
 from widgets.words import Words, words_in
+
+if TYPE_CHECKING:
+    from widgets.layers.handles import Box, Hands
 
 
 @dataclass(slots=True)
@@ -79,11 +82,12 @@ class Stage:
     # A channel, and a time at which it is seen in the window.
     seen: tuple[Channel, float] | None = None
     # Where the handles that have been painted last are, in screen pixels.
-    arms: dict[Channel, list[QRectF]] = field(default_factory=dict)
+    arms: dict[Channel, list["Box"]] = field(default_factory=dict)
     # How each channel was drawn, and at which revision; shared by the stages of one window.
     manners: dict[Channel, tuple[int, Manner]] = field(default_factory=dict)
-    # The few selected keys as they were read last.
+    # The few selected keys as they were read last, and their handles.
     readings: dict[Channel, Reading] = field(default_factory=dict)
+    hands: dict[Channel, "Hands"] = field(default_factory=dict)
     # What very many selected keys cover, and whether they were all of their channel when they were painted last.
     sights: dict[Channel, Sight] = field(default_factory=dict)
     wholly: dict[Channel, bool] = field(default_factory=dict)
@@ -117,7 +121,7 @@ class Stage:
             return stage
         ticks = ticks_of(window, stage.words(LABEL_SIZE).width, degrees=stage.degrees)
         return replace(
-            stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], manners={}, sights={}, wholly={}
+            stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], manners={}, sights={}, wholly={}, hands={}
         )
 
     def manner_of(self, channel: Channel) -> Manner:

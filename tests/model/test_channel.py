@@ -112,6 +112,16 @@ def test_runs_and_keys_of_ids(n: int) -> None:
     assert len(channel.run_of([])) == len(channel.keys_of([])) == 0
 
 
+@pytest.mark.parametrize("n", [1, 2, 3, 2000])
+def test_keys_around_one_are_its_neighbours_and_it(n: int) -> None:
+    channel = Channel("c", make_run(np.arange(n), 0.0))
+    for rank in {0, n // 2, n - 1}:
+        run, place = channel.keys_around(rank + 1)
+        wanted = range(max(rank, 1), min(rank + 2, n) + 1)
+        assert run["id"].tolist() == list(wanted)
+        assert run["id"][place] == rank + 1
+
+
 @pytest.mark.parametrize("n", [0, 1, 5, 2000])
 def test_keys_between_two_times(n: int) -> None:
     channel = Channel("x", random_run(3, n))

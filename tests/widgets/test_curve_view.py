@@ -16,6 +16,7 @@ from model.keyframe import Run, TangentRule, make_run
 from model.sampling import Window
 from model.selection import Selection
 from tests.widgets.screens import Screen, sample_clip, view_of
+from widgets.backdrop import Backdrop
 from widgets.curve_view import CurveView
 from widgets.guard import unguarded
 from widgets.hit_test import hit_all
@@ -152,6 +153,28 @@ def test_panning_moves_the_picture_like_a_hand(make: Make) -> None:
         view.pan_pixels(7.25, -3.5)
     assert view.x_from_time(1.0) == pytest.approx(x + 29)
     assert view.y_from_value(0.5) == pytest.approx(y - 14)
+
+
+def test_a_picture_that_is_only_pushed_is_gone_over_when_it_rests(
+    make: Make, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("widgets.backdrop.QUICK", -1.0)
+    monkeypatch.setattr("widgets.canvas.PAUSE", 60)
+    view = make(sample_clip())
+    view.show()
+    view.canvas.settle()
+    gone_over = []
+    monkeypatch.setattr(Backdrop, "refine", lambda self, *_: gone_over.append(True) or False)
+    for push in (12, -12) * 8:
+        view.pan_pixels(push, 0)
+        qtbot.wait(10)
+    assert view.canvas.backdrop.busy
+    assert not gone_over
+    qtbot.waitUntil(lambda: bool(gone_over))
+    monkeypatch.undo()
+    view.canvas.settle()
+    screen = Screen(view)
+    assert (screen.shown() == screen.painted_anew()).all()
 
 
 def test_a_curve_is_drawn_where_its_values_are(make: Make) -> None:

@@ -6,7 +6,6 @@ from math import ceil, floor
 from typing import Final
 
 import numpy as np
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter
 
 from model.lines import TOLERANCE, Line, dashes, line_through, lines_through
@@ -28,6 +27,9 @@ def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
     for soft, group in groupby(traces, lambda trace: trace.soft):
         lined = []
         for trace in group:
+            ends = trace.channel.ends()
+            if ends is None or ends.time1 < t0 or ends.time0 > t1:
+                continue
             if len(trace.channel) > 1 and not _drawn_crowded(painter, stage, trace, trace.color, x0, x1):
                 spans = trace.channel.spans_between(t0, t1)
                 if len(spans.time0):
@@ -69,11 +71,7 @@ def draw_line(
 ) -> None:
     """One chain, dashed if there is a pattern (in logical pixels)."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
-    pen = hair(color)
-    # Qt makes room for other ends by moving the whole first and last piece up to half a pixel: a part of a chain
-    # would then look otherwise than in the whole.
-    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-    painter.setPen(pen)
+    painter.setPen(hair(color, flat=True))
     if not pattern:
         draw_chain(painter, line, width)
         return

@@ -5,7 +5,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter
 
 from model.channel import Spans
@@ -17,21 +16,22 @@ from widgets.stage import Stage
 from widgets.traces import Trace
 
 type Floats = NDArray[np.float64]
-type Ray = tuple[float, float, float, float, float]
 
 DASH: Final = (3.0, 4.0)
 # How many pixel columns are drawn, and then left out, where repeats are too dense for dashes.
 STRIPES: Final = 4.0
+NO_LINES: Final[Floats] = np.empty((0, 4))
 
 
 def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """Both sides of each trace between *x0* and *x1*."""
     window = stage.window
+    left, t0, per_second = window.left, window.t0, window.px_per_second
     sides: list[tuple[Trace, bool, float, float]] = []
-    rays: dict[int, Ray] = {}
+    straight: list[tuple[float, float, float, float, float]] = []
+    places: list[int] = []
     # A dash that is cut here must lie beside what is painted: its slope is not quite that of the whole one.
     reach = REACH + DASH[0] * window.unit
-    left, t0, per_second = window.left, window.t0, window.px_per_second
     for trace in traces:
         ends = trace.channel.ends()
         if ends is None:
@@ -44,43 +44,46 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
             slope = slope_outside(trace.channel, after=after)
             if slope is not None:
                 seen = (max(x0 - reach, edge), x1 + reach) if after else (x0 - reach, min(x1 + reach, edge))
-                ray = _ray(window, slope, edge, value, seen)
-                if ray is None:
-                    continue
-                rays[len(sides)] = ray
+                straight.append((edge, value, slope, *seen))
+                places.append(len(sides))
             sides.append((trace, after, low, high))
-    # Cut together, as nearly all work on a few dashes is fixed; painted in turn, so that the same ones lie on top.
-    dash, gap = (part * window.unit for part in DASH)
-    anchor = window.x_from_time(0.0)
-    cut = straight_dashes(np.array(list(rays.values())), dash, gap, anchor, left) if rays else []
-    lines = dict(zip(rays, cut, strict=True))
+    if not sides:
+        return
+    lines = dict(zip(places, _straight_lines(window, np.array(straight)), strict=True)) if straight else {}
     for i, (trace, after, low, high) in enumerate(sides):
         if i in lines and i + 1 in lines and sides[i + 1][0] is trace:
             lines[i + 1] = np.concatenate((lines[i], lines[i + 1]))
-        elif i in lines:
+        elif i in lines and len(lines[i]):
             _draw_straight(painter, stage, trace, lines[i])
-        else:
+        elif i not in lines:
             _draw_repeats(painter, stage, trace, low, high, after=after)
 
 
-def _ray(window: Window, slope: float, x: float, value: float, seen: tuple[float, float]) -> Ray | None:
-    """The line through x, value with this slope as (x, y, fall, low, high) in pixels; None if nobody sees it."""
-    fall = min(max(-slope * (window.px_per_value / window.px_per_second), -HUGE), HUGE)
-    y = min(max(window.y_from_value(value), -HUGE), HUGE)
-    low, high = seen
-    if fall:
-        edges = sorted(x + (edge - y) / fall for edge in (window.top - REACH, window.bottom + REACH))
-        low, high = max(low, edges[0]), min(high, edges[1])
-    elif not window.top - REACH <= y <= window.bottom + REACH:
-        return None
-    return (x, y, fall, low, high) if low < high else None
+def _straight_lines(window: Window, straight: Floats) -> list[Floats]:
+    """The dashes of lines (n, 5) through an x and a value with a slope, between two x; one takes as long as many."""
+    x, value, slope, low, high = straight.T
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        fall = np.clip(slope * -(window.px_per_value / window.px_per_second), -HUGE, HUGE)
+        y = np.clip(window.y_from_value(value), -HUGE, HUGE)
+        top, bottom = window.top - REACH, window.bottom + REACH
+        edges = x + (np.array(((top,), (bottom,))) - y) / fall
+    level = fall == 0.0
+    low = np.where(level, low, np.maximum(low, edges.min(axis=0)))
+    high = np.where(level, np.where((y >= top) & (y <= bottom), high, low), np.minimum(high, edges.max(axis=0)))
+    (seen,) = (low < high).nonzero()
+    dash, gap = (part * window.unit for part in DASH)
+    rays = np.stack((x, y, fall, low, high), axis=1)[seen]
+    found: list[Floats] = [NO_LINES] * len(straight)
+    if len(seen):
+        cut = straight_dashes(rays, dash, gap, window.x_from_time(0.0), window.left)
+        for i, lines in zip(seen.tolist(), cut, strict=True):
+            found[i] = lines
+    return found
 
 
 def _draw_straight(painter: QPainter, stage: Stage, trace: Trace, lines: Floats) -> None:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, trace.soft)
-    pen = hair(trace.faint)
-    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-    painter.setPen(pen)
+    painter.setPen(hair(trace.faint, flat=True))
     draw_lines(painter, lines, _thickness(trace, stage.window.unit))
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import hypot
 from typing import Final, NamedTuple
 
-from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtCore import QPointF
 from PySide6.QtGui import QPainter, QPen
 
 from model.channel import Channel
@@ -12,6 +12,7 @@ from model.extrapolation import Extrapolation
 from model.keyframe import TangentRule
 from model.lines import HUGE
 from model.sampling import FAR, Window
+from model.selection import Ids
 from widgets.chosen import MOST, ChosenKey, few_chosen, with_neighbours
 from widgets.graph import Spot
 from widgets.layers.keys import SELECTED, selected_between
@@ -20,6 +21,9 @@ from widgets.traces import Trace
 
 LENGTH: Final = 48.0
 KNOB: Final = 3.5
+
+
+type Box = tuple[float, float, float, float]  # left, top, right, bottom
 
 
 class Handles(NamedTuple):
@@ -32,10 +36,18 @@ class Handles(NamedTuple):
     id: int
 
     @property
-    def box(self) -> QRectF:
+    def box(self) -> Box:
         """What lies between the ends."""
-        xs, ys = zip(self.key, self.into or self.key, self.out or self.key, strict=True)
-        return QRectF(QPointF(min(xs), min(ys)), QPointF(max(xs), max(ys)))
+        (x, y), (x0, y0), (x1, y1) = self.key, self.into or self.key, self.out or self.key
+        return min(x, x0, x1), min(y, y0, y1), max(x, x0, x1), max(y, y0, y1)
+
+
+class Hands(NamedTuple):
+    """The handles of a few keys of a channel with the times of these, and when they were worked out."""
+
+    revision: int
+    ids: Ids
+    every: list[tuple[float, Handles]]
 
 
 def handles_of(chosen: ChosenKey, channel: Channel, window: Window) -> Handles:
@@ -68,23 +80,37 @@ def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace
     window = stage.window
     margin = LENGTH * window.unit
     t0, t1 = window.time_from_x(window.left - margin), window.time_from_x(window.right + margin)
-    found: list[tuple[Trace, ChosenKey]] = []
-    few = stage.selection.count <= MOST
-    for trace, ids in stage.chosen:
-        channel = trace.channel
-        if channel.locked or (only is not None and channel is not only):
-            continue
-        if few:
-            found += [(trace, each) for each in few_chosen(stage, channel, ids) if t0 <= each.key.time <= t1]
-            continue
-        hidden = len(channel) - channel.count_between(t0, t1)
-        if len(ids) - hidden > MOST:  # soon told, however many
-            return []
-        seen = selected_between(channel, ids, t0, t1)["id"].tolist()
-        if len(found) + len(seen) > MOST:
-            return []
-        found += [(trace, with_neighbours(channel, key_id)) for key_id in seen]
-    return [(trace, handles_of(each, trace.channel, window)) for trace, each in found]
+    if stage.selection.count <= MOST:
+        return [
+            (trace, handles)
+            for trace, ids in stage.chosen
+            if not trace.channel.locked and (only is None or trace.channel is only)
+            for time, handles in few_handles(stage, trace.channel, ids)
+            if t0 <= time <= t1
+        ]
+    chosen = [(trace, ids) for trace, ids in stage.chosen if not trace.channel.locked]
+    # As many as there are at least, which is soon told.
+    if sum(max(len(ids) - len(t.channel) + t.channel.count_between(t0, t1), 0) for t, ids in chosen) > MOST:
+        return []
+    seen = [(trace, selected_between(trace.channel, ids, t0, t1)["id"].tolist()) for trace, ids in chosen]
+    if sum(len(ids) for _, ids in seen) > MOST:
+        return []
+    return [
+        (trace, handles_of(with_neighbours(trace.channel, key_id), trace.channel, window))
+        for trace, ids in seen
+        for key_id in ids
+        if only is None or trace.channel is only
+    ]
+
+
+def few_handles(stage: Stage, channel: Channel, ids: Ids) -> list[tuple[float, Handles]]:
+    """The times and handles of the selected keys *ids*, which are few; those that are gone are left out."""
+    known = stage.hands.get(channel)
+    if known is None or known.revision != channel.revision or known.ids is not ids:
+        chosen = few_chosen(stage, channel, ids)
+        every = [(each.key.time, handles_of(each, channel, stage.window)) for each in chosen]
+        known = stage.hands[channel] = Hands(channel.revision, ids, every)
+    return known.every
 
 
 def draw_handles(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:

@@ -11,8 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPixmap, QPolygonF
 
 from model.channel import Channel
-from model.document import Change, Splice
-from model.keyframe import Run, TangentRule
+from model.keyframe import KeyGoneError, Run, TangentRule
 from model.sampling import FAR, Window
 from widgets.chosen import MOST, Key, Sight, few_chosen, keys_from
 from widgets.layers.curves import draw_columns
@@ -120,10 +119,20 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
         else:
             runs.append(selected_between(trace.channel, ids, t0, t1))
     if runs:
-        run = cast("Run", np.concatenate(runs))
+        run = _joined(runs)
         if stage.selection.count > MOST_SELECTED:
             run = run[one_a_cell(run, stage)]
         _draw_run(painter, stage, run, color, radius)
+
+
+def _joined(runs: Sequence[Run]) -> Run:
+    # Joining records by numpy's own means compares their fields one by one, each time.
+    whole: Run = np.empty(sum(map(len, runs)), runs[0].dtype)
+    at = 0
+    for run in runs:
+        whole[at : at + len(run)] = run
+        at += len(run)
+    return whole
 
 
 def draw_merged(painter: QPainter, stage: Stage, trace: Trace, ids: NDArray[np.int64], x0: float, x1: float) -> None:
@@ -161,7 +170,7 @@ def _covered(channel: Channel, ids: NDArray[np.int64], window: Window) -> NDArra
 def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
     """The keys that the gesture under way hides: they come back if it moves on."""
     gesture = stage.document.gesture
-    if gesture is None or gesture.keeps_keys or all(map(_keeps_keys, gesture.changes)):
+    if gesture is None or not gesture.hides_keys:
         return
     for channel, run in gesture.covered.items():
         if stage.trace_of(channel) is not None:
@@ -170,18 +179,13 @@ def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], 
             painter.setOpacity(1.0)
 
 
-def _keeps_keys(change: Change) -> bool:
-    """Whether the same keys are there as before, in whatever order: so in most steps of most drags, and soon told."""
-    if not isinstance(change, Splice):
-        return True
-    before, after = change.before["id"], change.after["id"]
-    return len(before) == len(after) and bool((np.sort(before) == np.sort(after)).all())
-
-
 def selected_between(channel: Channel, ids: NDArray[np.int64], t0: float, t1: float) -> Run:
     """The selected keys from *t0* to *t1*, by whichever way touches fewer keys."""
     if len(ids) < 64 and len(ids) * 16 < channel.count_between(t0, t1):
-        few = channel.keys_of([key_id for key_id in ids.tolist() if key_id in channel])
+        try:
+            few = channel.keys_of(ids)
+        except KeyGoneError:  # some are hidden by a drag
+            few = channel.keys_of([key_id for key_id in ids.tolist() if key_id in channel])
         return few[(few["time"] >= t0) & (few["time"] <= t1)]
     run = channel.keys_between(t0, t1)
     return run if len(ids) == len(channel) else cast("Run", run[chosen(run, ids)])
