@@ -73,9 +73,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     if problem:
         print(problem, file=sys.stderr)
         return 2
-    from app.quick_start import spare_sources
+    from app.quick_qt import import_qt
 
-    spare_sources()
+    import_qt()
     if options.check:
         from app.check import run_check
 

@@ -92,7 +92,7 @@ def test_a_mistyped_command_is_one_sentence_and_no_window() -> None:
 
 def test_the_window_starts_without_a_look_into_the_source_of_its_modules() -> None:
     code = (
-        "import inspect; from app.quick_start import spare_sources; spare_sources(); read = []; "
+        "import inspect; from app.quick_qt import import_qt; import_qt(); read = []; "
         "inspect.getsource = lambda module: read.append(module.__name__) or ''; "
         "import app.main_window, pyqtgraph; print(read)"
     )

@@ -1,0 +1,69 @@
+"""Qt for Python in half the time: without the two things it does at import that nobody here needs."""
+
+import builtins
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import CodeType
+from typing import Any
+
+# Modules inside Qt for Python that put the signatures of functions into words, for errors, help and stubs. It keeps no
+# bytecode of them: compiled anew at every start, they are a fifth of the time to the first frame.
+WORDING = frozenset(
+    f"shibokensupport/signature/{name}.py"
+    for name in ("parser", "layout", "errorhandler", "lib/tool", "lib/enum_sig", "lib/pyi_generator")
+)
+# What stands in for one of them until something in it is asked for.
+STAND_IN = """
+def __getattr__(name):
+    del globals()["__getattr__"]
+    exec(compile({source!r}, {file!r}, "exec"), globals())
+    import sys
+    return getattr(sys.modules[__name__], name)
+"""
+
+
+def import_qt() -> None:
+    """Import Qt for Python. Where a later one is put together in another way, it is imported as everybody does."""
+    with _wording_put_off():
+        import PySide6.QtCore  # noqa: F401
+    _spare_sources()
+
+
+@contextmanager
+def _wording_put_off() -> Iterator[None]:
+    """While it lasts, a module of WORDING is compiled to its stand-in."""
+    # One of them reads that, and must do so in time; Qt for Python itself sets it to True for its children.
+    if os.environ.get("PYSIDE6_OPTION_PYTHON_ENUM", "True") != "True":
+        yield
+        return
+    original, left = builtins.compile, set(WORDING)
+
+    def compile_(source: Any, file: Any, *more: Any, **options: Any) -> CodeType:
+        if file in left:
+            left.discard(file)
+            source = STAND_IN.format(source=source, file=file)
+        code: CodeType = original(source, file, *more, **options)
+        return code
+
+    vars(builtins)["compile"] = compile_
+    try:
+        yield
+    finally:
+        vars(builtins)["compile"] = original
+
+
+def _spare_sources() -> None:
+    """Tell the import hook of Qt for Python that no module wants another spelling of Qt's names (`__feature__`).
+
+    To find out, it reads the source of each module, which costs 0.2 s for pyqtgraph and us.
+    """
+    hook = sys.modules.get("shibokensupport.feature")
+    if hook is not None and hasattr(hook, "_mod_uses_pyside"):
+        vars(hook)["_mod_uses_pyside"] = wants_no_feature
+
+
+def wants_no_feature(_module: object) -> bool:
+    """The answer for every module of this program."""
+    return False
