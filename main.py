@@ -13,6 +13,7 @@ if sys.version_info < (3, 12):  # said here, in words every Python 3 can read, b
     sys.exit(2)
 
 import argparse
+import gc
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -73,6 +74,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if problem:
         print(problem, file=sys.stderr)
         return 2
+    gc.disable()  # what is loaded now stays; app.start turns it on again
     from app.quick_qt import import_qt
 
     import_qt()

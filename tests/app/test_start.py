@@ -53,9 +53,24 @@ sys.exit(run_window(sys.argv[1], None, first_frame=look))
 """
 
 
+# Runs the program as the command line does, up to its first picture, and tells of the collection of garbage.
+GARBAGE = """
+import gc, sys
+import main
+
+kept = []
+gc.callbacks.append(lambda phase, info: "PySide6" in sys.modules and kept.append(gc.get_freeze_count()))
+sys.argv[1:] = ["--check"]
+code = main.main()
+gc.collect()
+print(min(kept) > 10_000, gc.isenabled())
+sys.exit(code)
+"""
+
+
 def run(path: str, then: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-c", LATE if then == "late" else PROGRAM.format(then=then), path],
+        [sys.executable, "-c", {"late": LATE, "garbage": GARBAGE}.get(then) or PROGRAM.format(then=then), path],
         cwd=ROOT,
         env={**os.environ, "QT_QPA_PLATFORM": "offscreen"},
         capture_output=True,
@@ -97,3 +112,9 @@ def test_leaving_in_the_middle_of_a_drag_says_nothing() -> None:
     then = "gesture = window.document.begin('Drag'); from PySide6.QtWidgets import QApplication; QApplication.exit(0)"
     done = run("", then)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_garbage_is_not_looked_for_until_the_first_picture_is_there_and_then_as_ever() -> None:
+    done = run("", "garbage")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines()[-1] == "True True"
