@@ -38,7 +38,7 @@ ONE_STEP: Final = 0.6
 START: Final = ViewRange(-0.1, 1.1, -0.1, 1.1)
 
 
-class CurveView(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
+class CurveView(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     """The curves of a document's shown channels; sizes are logical pixels of the viewport."""
 
     view_changed = Signal()
@@ -68,14 +68,6 @@ class CurveView(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         self._on_replaced()
 
     def _set_up(self) -> None:
-        plot = self.getPlotItem()
-        plot.disableAutoRange()
-        plot.hideButtons()
-        plot.setMenuEnabled(False)
-        plot.setMouseEnabled(False, False)
-        for side in ("left", "bottom"):
-            plot.hideAxis(side)
-        plot.layout.setContentsMargins(VALUE_WIDTH, TIME_HEIGHT, 0, 0)
         self.setCacheMode(QGraphicsView.CacheModeFlag(0))
         self.setOptimizationFlag(QGraphicsView.OptimizationFlag.DontSavePainterState, True)
         self.setOptimizationFlag(QGraphicsView.OptimizationFlag.DontAdjustForAntialiasing, True)
