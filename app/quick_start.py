@@ -1,4 +1,4 @@
-"""pyqtgraph in a third of the time: without what it does at import that nobody here needs."""
+"""numpy and pyqtgraph in half the time: without what they do at import that nobody here needs."""
 
 import sys
 from collections.abc import Iterator
@@ -12,43 +12,54 @@ from types import ModuleType
 
 # The parts of Qt of which pyqtgraph keeps copies under its own name.
 MIRRORED = ("QtCore", "QtGui", "QtWidgets")
-# Modules that pyqtgraph imports only to offer what is in them: pictures, colour maps, trees, other processes.
-ITEMS = """
-    ArrowItem BoxplotItem ColorBarItem CurvePoint DateAxisItem ErrorBarItem FillBetweenItem GradientEditorItem
-    GradientLegend GraphItem GraphicsLayout GridItem HistogramLUTItem ImageItem IsocurveItem LinearRegionItem
-    PColorMeshItem ROI ScaleBar TargetItem UIGraphicsItem VTickGroup
-"""
-WIDGETS = """
-    BusyCursor CheckTable ColorButton ColorMapMenu ColorMapWidget ComboBox DataFilterWidget DataTreeWidget
-    DiffTreeWidget FeedbackButton GradientWidget GraphicsLayoutWidget GroupBox HistogramLUTWidget JoystickButton
-    LayoutWidget PathButton ProgressDialog RawImageWidget RemoteGraphicsView ScatterPlotWidget SpinBox
-    TableWidget TreeWidget ValueLabel VerticalLabel
-"""
+# pyqtgraph imports all it has to offer: plots, pictures, colour maps, trees, other processes. We need its view.
+UNUSED_ROOMS = ("pyqtgraph.graphicsItems", "pyqtgraph.widgets")
+USED = "pyqtgraph.widgets.GraphicsView"
 UNUSED = frozenset(
     [
-        *(f"pyqtgraph.graphicsItems.{name}" for name in ITEMS.split()),
-        *(f"pyqtgraph.widgets.{name}" for name in WIDGETS.split()),
         "pyqtgraph.colormap",
         "pyqtgraph.imageview",
+        "pyqtgraph.Qt.OpenGLHelpers",
+        # Words of help for what numpy has written in C.
+        "numpy._core._add_newdocs",
+        "numpy._core._add_newdocs_scalars",
     ]
 )
+# Parts of Qt that pyqtgraph does without where they are missing.
+REFUSED = frozenset(["PySide6.QtOpenGLWidgets", "PySide6.QtTest"])
+
+
+def is_unused(name: str) -> bool:
+    """Whether the module of this name is left out at first."""
+    return name in UNUSED or (name.rpartition(".")[0] in UNUSED_ROOMS and name != USED)
+
+
+def import_numpy() -> None:
+    """Import numpy without its words of help."""
+    with left_out():
+        import numpy  # noqa: F401
 
 
 def import_pyqtgraph() -> None:
-    """Import pyqtgraph in a third of the time: without the parts of it that no plot needs, see UNUSED and Mirror.
+    """Import pyqtgraph in a fifth of the time: without the parts of it that no view needs, see UNUSED and Mirror.
 
     Where a later pyqtgraph is put together in another way, it is imported as everybody does.
     """
     if "pyqtgraph" in sys.modules or not _copies_are_empty():
         return
     try:
-        with _mirrored(), _left_out():
+        with _mirrored(), left_out():
             import pyqtgraph
-        vars(pyqtgraph)["__getattr__"] = _late
     except ImportError:
         for name in [name for name in sys.modules if name.partition(".")[0] == "pyqtgraph"]:
             del sys.modules[name]
         import pyqtgraph
+    else:
+        pyqtgraph.setConfigOption("exitCleanup", False)  # it would tell ViewBox, which is left out
+        names = vars(pyqtgraph)
+        for name in [name for name, value in names.items() if value is None and name[0].isupper()]:
+            del names[name]
+        names["__getattr__"] = _late
 
 
 def _copies_are_empty() -> bool:
@@ -62,36 +73,42 @@ def _copies_are_empty() -> bool:
 
 def _late(name: str) -> object:
     """What was left out of pyqtgraph and is asked for after all, as by its own dialogs."""
-    for module in UNUSED:
-        if module.endswith(f".{name}"):
-            return getattr(import_module(module), name)
+    for room in ("pyqtgraph", *UNUSED_ROOMS):
+        if is_unused(f"{room}.{name}") and find_spec(f"{room}.{name}") is not None:
+            return getattr(import_module(f"{room}.{name}"), name)
     raise AttributeError(f"module 'pyqtgraph' has no attribute {name!r}")
 
 
 @contextmanager
-def _left_out() -> Iterator[None]:
-    """While it lasts, the UNUSED modules of pyqtgraph are empty; afterwards they can be imported as ever."""
+def left_out() -> Iterator[None]:
+    """While it lasts, modules that are not used are empty; afterwards they can be imported as ever."""
     finder = Nothing()
     sys.meta_path.insert(0, finder)
     try:
         yield
     finally:
         sys.meta_path.remove(finder)
-        for name in UNUSED:
-            if sys.modules.pop(name, None) is not None:
-                parent, _, leaf = name.rpartition(".")
-                vars(sys.modules[parent]).pop(leaf, None)
+        for name in finder.found:
+            del sys.modules[name]
+            parent, _, leaf = name.rpartition(".")
+            vars(sys.modules[parent]).pop(leaf, None)
 
 
 class Nothing(Loader):
-    """Finds and loads the UNUSED modules, with nothing in them but what is asked for by name."""
+    """Finds and loads modules that are not used, with nothing in them but what is asked for by name."""
+
+    def __init__(self) -> None:
+        self.found: list[str] = []
 
     def find_spec(self, name: str, path: object, target: object = None) -> ModuleSpec | None:
-        """Only for UNUSED modules, else None."""
-        return ModuleSpec(name, self) if name in UNUSED else None
+        """Only for modules that are not used, else None."""
+        if name in REFUSED:
+            raise ModuleNotFoundError(name)
+        return ModuleSpec(name, self) if is_unused(name) else None
 
     def exec_module(self, module: ModuleType) -> None:
         """Give the module nothing, and to those who ask for its class by name None."""
+        self.found.append(module.__name__)
         vars(module).update(__all__=(), **dict.fromkeys([module.__name__.rpartition(".")[2]]))
 
 
