@@ -12,15 +12,19 @@ from typing import Any
 # bytecode of them: compiled anew at every start, they are a fifth of the time to the first frame.
 WORDING = frozenset(
     f"shibokensupport/signature/{name}.py"
-    for name in ("parser", "layout", "errorhandler", "lib/tool", "lib/enum_sig", "lib/pyi_generator")
+    for name in ("mapping", "parser", "layout", "errorhandler", "lib/tool", "lib/enum_sig", "lib/pyi_generator")
 )
-# What stands in for one of them until something in it is asked for.
+# What stands in for one of them until something in it is asked for; a function that Qt for Python picks out of the
+# names of mapping, without asking, is there from the start.
 STAND_IN = """
 def __getattr__(name):
-    del globals()["__getattr__"]
-    exec(compile({source!r}, {file!r}, "exec"), globals())
     import sys
+    del globals()["__getattr__"], globals()["update_mapping"]
+    exec(compile({source!r}, {file!r}, "exec"), globals())
     return getattr(sys.modules[__name__], name)
+
+def update_mapping():
+    return __getattr__("update_mapping")()
 """
 
 
