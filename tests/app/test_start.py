@@ -31,7 +31,7 @@ sys.exit(run_window(sys.argv[1] or None, None, first_picture=first_picture))
 
 
 # Runs the program on a file and tells what is to be seen until the file is open.
-LATE = """
+LATE_FILE = """
 import sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
@@ -67,10 +67,50 @@ print(min(kept) > 10_000, gc.isenabled())
 sys.exit(code)
 """
 
+# Runs the program as the command line does and tells which modules are loaded when the first picture is there.
+LOADED = """
+import sys
+import main, app.quick_qt
+
+import_qt = app.quick_qt.import_qt
+
+def import_qt_and_listen():
+    import_qt()
+    import app.check, app.main_window
+    from PySide6.QtWidgets import QApplication
+    tell = lambda window: (print(*sys.modules), QApplication.exit(0))
+    app.check.run_check = lambda path, skel, started: app.main_window.run_window(path, skel, first_picture=tell)
+
+app.quick_qt.import_qt = import_qt_and_listen
+sys.argv[1:] = ["--check"]
+sys.exit(main.main())
+"""
+# Packages, and parts of packages, that are needed by then; what else is imported makes every start slower.
+NEEDED = {
+    "": {
+        "app",
+        "model",
+        "widgets",
+        "main",
+        "PySide6",
+        "shiboken6",
+        "shibokensupport",
+        "pyqtgraph",
+        "colorama",
+        "numpy",
+    },
+    "PySide6.": {"QtCore", "QtGui", "QtSvg", "QtWidgets", "support"},
+    "numpy.": {"dtypes", "exceptions", "lib", "linalg", "matrixlib", "typing", "version"},
+}
+# What is imported when it is asked for.
+LATE = {"app.about", "app.commands", "app.fuzzy", "app.help", "app.palette", "app.render"}
+LATE |= {"asyncio", "email", "http", "importlib.metadata", "logging", "xml"}
+
 
 def run(path: str, then: str) -> subprocess.CompletedProcess[str]:
+    code = {"late": LATE_FILE, "garbage": GARBAGE, "loaded": LOADED}.get(then) or PROGRAM.format(then=then)
     return subprocess.run(
-        [sys.executable, "-c", {"late": LATE, "garbage": GARBAGE}.get(then) or PROGRAM.format(then=then), path],
+        [sys.executable, "-c", code, path],
         cwd=ROOT,
         env={**os.environ, "QT_QPA_PLATFORM": "offscreen"},
         capture_output=True,
@@ -118,3 +158,14 @@ def test_garbage_is_not_looked_for_until_the_first_picture_is_there_and_then_as_
     done = run("", "garbage")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines()[-1] == "True True"
+
+
+def test_nothing_is_imported_before_the_first_picture_that_it_does_not_need() -> None:
+    done = run("", "loaded")
+    assert (done.returncode, done.stderr) == (0, "")
+    names = set(done.stdout.split())
+    for package, needed in NEEDED.items():
+        parts = {name.removeprefix(package).partition(".")[0] for name in names if name.startswith(package)}
+        others = parts - needed - sys.stdlib_module_names
+        assert not {name for name in others if not name.startswith("_")} - {"signature_bootstrap"}
+    assert sorted(names & LATE) == []
