@@ -153,6 +153,9 @@ def first_layout(window: "MainWindow") -> None:
     """Put panels and toolbar where they are before the user moves anything, in their first widths."""
     window.settings.channels_width = window.settings.inspector_width = 0
     _place_panels(window)
+    for bar in window.findChildren(QToolBar):
+        window.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
+        bar.show()
     _give_widths(window)
 
 
@@ -163,9 +166,6 @@ def _place_panels(window: "MainWindow") -> None:
         dock.setFloating(False)
         window.addDockWidget(area, dock)
         dock.setVisible(name != "history")
-    for bar in window.findChildren(QToolBar):
-        window.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
-        bar.show()
 
 
 def _restore_layout(window: "MainWindow") -> None:
