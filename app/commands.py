@@ -276,6 +276,11 @@ def _render(arguments: argparse.Namespace) -> None:
     channels = _chosen(clip, arguments.channel)
     if not arguments.out.lower().endswith(".png"):
         raise CommandError(f"{arguments.out}: not written, since pictures are PNG files: name it with .png at the end")
+    from app.quick_qt import import_qt
+    from app.quick_start import import_pyqtgraph
+
+    import_qt()
+    import_pyqtgraph()
     from app.render import render
 
     render(clip, channels, arguments.out, size=arguments.size, start=arguments.start, end=arguments.end)

@@ -283,6 +283,17 @@ def test_no_command_but_render_loads_qt(walk: Path, words: list[str]) -> None:
     assert (done.returncode, done.stderr) == (0, b"[]\n")
 
 
+def test_render_loads_of_pyqtgraph_only_its_view(walk: Path, tmp_path: Path) -> None:
+    words = ["render", str(walk), "-o", str(tmp_path / "walk.png")]
+    code = (
+        f"import sys; sys.argv[1:] = {words!r}; import main; code = main.main()\n"
+        "print([n for n in sys.modules if n.startswith('pyqtgraph.graphicsItems.')], file=sys.stderr)\n"
+        "sys.exit(code)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, b"[]\n")
+
+
 @pytest.mark.parametrize("name", ["walk.hermite", "other.anim", "clip-without-extension"])
 def test_a_picture_is_not_written_over_a_clip(hermite: Hermite, walk: Path, tmp_path: Path, name: str) -> None:
     target = tmp_path / name
