@@ -2,7 +2,6 @@
 
 import builtins
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import CodeType
@@ -32,7 +31,7 @@ def import_qt() -> None:
     """Import Qt for Python. Where a later one is put together in another way, it is imported as everybody does."""
     with _wording_put_off():
         import PySide6.QtCore  # noqa: F401
-    _spare_sources()
+    _import_plainly()
 
 
 @contextmanager
@@ -58,16 +57,12 @@ def _wording_put_off() -> Iterator[None]:
         vars(builtins)["compile"] = original
 
 
-def _spare_sources() -> None:
-    """Tell the import hook of Qt for Python that no module wants another spelling of Qt's names (`__feature__`).
+def _import_plainly() -> None:
+    """Take off the import hook of Qt for Python, which asks for each module whether it wants another spelling of Qt's
+    names (`__feature__`).
 
-    To find out, it reads the source of each module, which costs 0.2 s for pyqtgraph and us.
+    To find out, it reads the source of each, which costs 0.2 s for pyqtgraph and us.
     """
-    hook = sys.modules.get("shibokensupport.feature")
-    if hook is not None and hasattr(hook, "_mod_uses_pyside"):
-        vars(hook)["_mod_uses_pyside"] = wants_no_feature
-
-
-def wants_no_feature(_module: object) -> bool:
-    """The answer for every module of this program."""
-    return False
+    original = vars(builtins).get("__orig_import__")
+    if original is not None:
+        vars(builtins)["__import__"] = original

@@ -48,5 +48,8 @@ def test_an_option_of_qt_for_python_that_these_modules_read_is_still_read_at_imp
     assert told.count("shibokensupport") == 7
 
 
-def test_compile_is_itself_again() -> None:
-    assert printed(f"before = compile; {QUICK}print(compile is before)") == "True"
+def test_compile_is_itself_again_and_imports_pass_qt_by() -> None:
+    assert printed("import PySide6.QtCore; print(__import__.__name__)") == "__feature_import__"
+    told = printed(f"before = compile; {QUICK}print(compile is before, __import__.__name__)")
+    assert told.startswith("True ")
+    assert "feature" not in told
