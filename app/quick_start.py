@@ -34,21 +34,15 @@ def is_unused(name: str) -> bool:
     return name in UNUSED or (name.rpartition(".")[0] in UNUSED_ROOMS and name != USED)
 
 
-def import_numpy() -> None:
-    """Import numpy without its words of help."""
-    with left_out():
-        import numpy  # noqa: F401
-
-
 def import_pyqtgraph() -> None:
-    """Import pyqtgraph in a fifth of the time: without the parts of it that no view needs, see UNUSED and Mirror.
+    """Import numpy and pyqtgraph without the parts of them that no view needs, see UNUSED and Mirror.
 
-    Where a later pyqtgraph is put together in another way, it is imported as everybody does.
+    Where a later pyqtgraph is put together in another way, both are imported as everybody does.
     """
     if "pyqtgraph" in sys.modules or not _copies_are_empty():
         return
     try:
-        with _mirrored(), left_out():
+        with _mirrored(), left_out() as names:
             import pyqtgraph
     except ImportError:
         for name in [name for name in sys.modules if name.partition(".")[0] == "pyqtgraph"]:
@@ -56,10 +50,11 @@ def import_pyqtgraph() -> None:
         import pyqtgraph
     else:
         pyqtgraph.setConfigOption("exitCleanup", False)  # it would tell ViewBox, which is left out
-        names = vars(pyqtgraph)
-        for name in [name for name, value in names.items() if value is None and name[0].isupper()]:
-            del names[name]
-        names["__getattr__"] = _late
+        own = vars(pyqtgraph)
+        for leaf in {name.rpartition(".")[2] for name in names} & own.keys():
+            if own[leaf] is None:
+                del own[leaf]
+        own["__getattr__"] = _late
 
 
 def _copies_are_empty() -> bool:
@@ -80,12 +75,12 @@ def _late(name: str) -> object:
 
 
 @contextmanager
-def left_out() -> Iterator[None]:
-    """While it lasts, modules that are not used are empty; afterwards they can be imported as ever."""
+def left_out() -> Iterator[list[str]]:
+    """While it lasts, modules that are not used are empty; later they can be imported as ever. Lists their names."""
     finder = Nothing()
     sys.meta_path.insert(0, finder)
     try:
-        yield
+        yield finder.found
     finally:
         sys.meta_path.remove(finder)
         for name in finder.found:

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent.parent
-START = "from app.quick_start import import_numpy, import_pyqtgraph, is_unused; import PySide6.QtWidgets as own, sys; "
+START = "from app.quick_start import import_pyqtgraph, is_unused; import PySide6.QtWidgets as own, sys; "
 
 
 def printed(code: str) -> str:
@@ -35,6 +35,7 @@ def test_what_was_left_out_of_pyqtgraph_can_be_had_later() -> None:
         "('ROI', 'SpinBox', 'PlotWidget', 'ViewBox', 'SRTTransform', 'GroupBox')))"
     )
     assert told == "[] ROI SpinBox PlotWidget ViewBox SRTTransform GroupBox"
+    assert printed("import_pyqtgraph(); import pyqtgraph as pg; print(pg.QAPP)") == "None"
     assert "has no attribute 'Nonsense'" in printed("import_pyqtgraph(); import pyqtgraph as pg; pg.Nonsense")
 
 
@@ -57,7 +58,7 @@ def test_the_graph_comes_without_the_parts_of_pyqtgraph_that_no_view_needs() -> 
 
 def test_numpy_comes_without_its_words_of_help_which_can_be_had_later() -> None:
     told = printed(
-        "import_numpy(); import numpy; none = numpy.ndarray.sum.__doc__; "
+        "import_pyqtgraph(); import numpy; none = numpy.ndarray.sum.__doc__; "
         "import numpy._core._add_newdocs; print(none, 'axis' in numpy.ndarray.sum.__doc__)"
     )
     assert told == "None True"
