@@ -4,9 +4,12 @@ import builtins
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
 from types import CodeType
 from typing import Any
 
+KNOWN = "6.12"
 # Modules inside Qt for Python that put the signatures of functions into words, for errors, help and stubs. It keeps no
 # bytecode of them: compiled anew at every start, they are a fifth of the time to the first frame.
 WORDING = frozenset(
@@ -28,17 +31,26 @@ def update_mapping():
 
 
 def import_qt() -> None:
-    """Import Qt for Python. Where a later one is put together in another way, it is imported as everybody does."""
+    """Import Qt for Python; a version that is not KNOWN to be put together like this as everybody imports it."""
     with _wording_put_off():
         import PySide6.QtCore  # noqa: F401
     _import_plainly()
+
+
+def _is_known() -> bool:
+    spec = find_spec("shiboken6")
+    folders = spec.submodule_search_locations if spec is not None else None
+    if not folders:
+        return False
+    config = Path(folders[0], "_config.py")
+    return config.is_file() and f'soversion = "{KNOWN}"' in config.read_text(encoding="utf-8")
 
 
 @contextmanager
 def _wording_put_off() -> Iterator[None]:
     """While it lasts, a module of WORDING is compiled to its stand-in."""
     # One of them reads that, and must do so in time; Qt for Python itself sets it to True for its children.
-    if os.environ.get("PYSIDE6_OPTION_PYTHON_ENUM", "True") != "True":
+    if os.environ.get("PYSIDE6_OPTION_PYTHON_ENUM", "True") != "True" or not _is_known():
         yield
         return
     original, left = builtins.compile, set(WORDING)

@@ -48,6 +48,11 @@ def test_an_option_of_qt_for_python_that_these_modules_read_is_still_read_at_imp
     assert told.count("shibokensupport") == 7
 
 
+def test_an_unknown_version_is_imported_as_everybody_does() -> None:
+    code = f"import app.quick_qt; app.quick_qt.KNOWN = '5.0'; {QUICK}{LOADED}"
+    assert printed(code).count("shibokensupport") == 7
+
+
 def test_compile_is_itself_again_and_imports_pass_qt_by() -> None:
     assert printed("import PySide6.QtCore; print(__import__.__name__)") == "__feature_import__"
     told = printed(f"before = compile; {QUICK}print(compile is before, __import__.__name__)")

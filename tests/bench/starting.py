@@ -90,7 +90,7 @@ def run() -> list[Line]:
     of = starts.median
     return [
         Line("start to the first window", of("frame"), "PySide6 window", of("window"), most=0.25),
-        Line("start to the first picture", of("picture"), "PySide6 + pyqtgraph window", of("plot"), 1.0, 0.7),
+        Line("start to the first picture", of("picture"), "PySide6 + pyqtgraph window", of("plot"), 1.15, 0.7),
         Line("start, first picture, end", of("ours in all"), "PySide6 + pyqtgraph window", of("plot in all")),
         Line("hermite info, a small file", commands["info"].median, most=0.35),
         Line("hermite evaluate, a small file", commands["evaluate"].median, most=0.35),
