@@ -44,8 +44,8 @@ class Clip:
 
     def extent(self) -> tuple[float, float] | None:
         """(first, last) time of all keys; None without keys."""
-        ends = [(c.first.time, c.last.time) for c in self.channels if c.first and c.last]
-        return (min(t0 for t0, _ in ends), max(t1 for _, t1 in ends)) if ends else None
+        ends = [ends for channel in self.channels if (ends := channel.ends()) is not None]
+        return (min(each.time0 for each in ends), max(each.time1 for each in ends)) if ends else None
 
     def pose(self, time: float) -> dict[str, float]:
         """The value of every channel at *time*."""

@@ -7,14 +7,18 @@ import numpy as np
 
 from model.channel import Channel
 from model.keyframe import Run, TangentRule, make_run
+from model.progress import Report, unheard
 from model.selection import Selection
 
 HEADER = "hermite-keys 1"
 MOST_KEYS = 200_000
 MOST_CHARACTERS = 64 * 1024 * 1024
 LONGEST_LINE = 8192
+# Lines between two looks at whether anybody still wants them.
+AT_A_TIME = 4096
 _FIELDS = "channel, time, value, slope in, slope out, rule in, rule out, unified or broken"
 _NUMBER_CHARACTERS = frozenset("0123456789+-.eE")
+_WORDS = [rule.word for rule in TangentRule]
 _RULES = {rule.word: int(rule) for rule in TangentRule}
 _ESCAPES = {"\\": "\\\\", "\t": "\\t", "\n": "\\n", "\r": "\\r"}
 
@@ -35,7 +39,7 @@ class CopiedKeys(NamedTuple):
         return min(float(run["time"][0]) for run in self.runs.values())
 
 
-def text_from_keys(selection: Selection) -> str:
+def text_from_keys(selection: Selection, report: Report = unheard) -> str:
     """The selected keys as text, one a line, fields parted by tabs; ValueError if they are more than MOST_KEYS."""
     if selection.count > MOST_KEYS:
         raise ValueError(f"{selection.count:,} keys are too many for the clipboard, which takes {MOST_KEYS:,}")
@@ -45,12 +49,14 @@ def text_from_keys(selection: Selection) -> str:
         for time, value, slope_in, slope_out, rule_in, rule_out, broken, _ in channel.keys_of(
             selection.ids(channel)
         ).tolist():
-            rules = f"{TangentRule(rule_in).word}\t{TangentRule(rule_out).word}\t{'broken' if broken else 'unified'}"
+            rules = f"{_WORDS[rule_in]}\t{_WORDS[rule_out]}\t{'broken' if broken else 'unified'}"
             lines.append(f"{name}\t{time!r}\t{value!r}\t{slope_in!r}\t{slope_out!r}\t{rules}")
+            if len(lines) % AT_A_TIME == 0:
+                report(len(lines) / selection.count)
     return "\n".join(lines) + "\n"
 
 
-def keys_from_text(text: str) -> CopiedKeys:
+def keys_from_text(text: str, report: Report = unheard) -> CopiedKeys:
     """The keys in *text*; ValueError, with the line, if it is no text of ours, damaged, or of too many keys."""
     if not text.startswith(HEADER):
         raise ValueError("the clipboard holds no keys")
@@ -61,6 +67,8 @@ def keys_from_text(text: str) -> CopiedKeys:
         raise ValueError("the clipboard holds keys of another version of Hermite")
     rows: dict[str, list[tuple[float | int | bool, ...]]] = {}
     for number, line in enumerate(lines[1:], start=2):
+        if number % AT_A_TIME == 0:
+            report(number / len(lines))
         if not line or line.isspace():
             continue
         try:

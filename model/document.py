@@ -107,6 +107,14 @@ class Document:
         self.session.settle(clip.channels, Selection.NONE, None)
         self.clip_replaced.emit()
 
+    def at_length[T](self, text: str, work: Callable[[Report], T], *, many: bool) -> T:
+        """What *work*, which changes nothing, gives; if it is about *many* keys, `long_work` does it.
+
+        CancelledError if that was cancelled.
+        """
+        self._require_rest()
+        return work(unheard) if self.long_work is None or not many else self._at_length(text, work)
+
     def label_of(self, verb: str, selection: Selection, d_time: float = 0.0, d_value: float = 0.0) -> str:
         """As "Move 14 keys of root.tx by +0.10 s"."""
         return label_of(verb, selection, d_time, d_value)

@@ -46,11 +46,11 @@ def active_fitted(document: Document) -> ViewRange | None:
 def _fitted_channels(clip: Clip, channels: Iterable[Channel]) -> ViewRange:
     t0, t1, v0, v1 = inf, -inf, inf, -inf
     for channel in channels:
-        first, last = channel.first, channel.last
-        if first is None or last is None:
+        ends = channel.ends()
+        if ends is None:
             continue
         low, high = channel.extrema()
-        t0, t1, v0, v1 = min(t0, first.time), max(t1, last.time), min(v0, low), max(v1, high)
+        t0, t1, v0, v1 = min(t0, ends.time0), max(t1, ends.time1), min(v0, low), max(v1, high)
     if t0 > t1:
         start, end = (clip.start, clip.end) if clip.end > clip.start else (0.0, 1.0)
         return fitted(start, end, 0.0, 1.0, MARGINS)

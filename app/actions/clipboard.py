@@ -11,9 +11,14 @@ from model import edits
 from model.clipboard import keys_from_text, text_from_keys
 from model.document import Splice, added_keys
 from model.labels import channels_text, counted, keys_text, label_of
+from model.progress import CancelledError
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
+
+
+# More keys than this are written and read as text on another thread: about 50 ms.
+MANY_LINES = 8_000
 
 
 class Paste(NamedTuple):
@@ -49,9 +54,11 @@ PASTES = (
 
 def _paste(how: Paste, window: "MainWindow") -> None:
     """Paste the keys that the clipboard holds; what cannot be pasted is said."""
-    session = window.session
+    session, text = window.session, QGuiApplication.clipboard().text()
     try:
-        copied = keys_from_text(QGuiApplication.clipboard().text())
+        copied = window.document.at_length(
+            "Read the clipboard", partial(keys_from_text, text), many=text.count("\n") > MANY_LINES
+        )
         changes = edits.paste(
             window.document.clip,
             copied,
@@ -67,19 +74,26 @@ def _paste(how: Paste, window: "MainWindow") -> None:
         window.document.do(label, lambda clip: changes, selection=added_keys, keys=count)
         if count < copied.key_count:
             window.say(f"{label}: for the other {copied.key_count - count} there is no unlocked channel")
+    except CancelledError:
+        return
     except ValueError as error:
         window.say(f"Nothing was pasted: {error}")
 
 
 def _copy(window: "MainWindow") -> bool:
     """Put the selected keys on the clipboard as text; False, with a message, if they are too many."""
+    document, selection = window.document, window.session.selection
     try:
-        text = text_from_keys(window.session.selection)
+        text = document.at_length(
+            label_of("Copy", selection), partial(text_from_keys, selection), many=selection.count > MANY_LINES
+        )
+    except CancelledError:
+        return False
     except ValueError as error:
         window.say(str(error))
         return False
     QGuiApplication.clipboard().setText(text)
-    window.say(f"Copied {keys_text(window.session.selection)}")
+    window.say(f"Copied {keys_text(selection)}")
     return True
 
 

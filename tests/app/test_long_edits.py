@@ -18,8 +18,10 @@ from model import edits
 from model.change import Change, Touched, put
 from model.channel import Channel
 from model.clip import Clip
+from model.clipboard import text_from_keys
 from model.document import Edit
 from model.keyframe import make_run
+from model.progress import Report
 from model.selection import Selection
 from tests.app.conftest import MakeWindow, answers_of
 from tests.app.test_jobs import meanwhile, press_escape, progress
@@ -313,3 +315,31 @@ def test_the_wheel_does_not_move_the_view_meanwhile(window: MainWindow, gate: Ga
     assert window.view.view_range == before
     turn()
     assert window.view.view_range != before
+
+
+def test_keys_are_written_and_read_as_text_on_another_thread_and_that_can_be_stopped(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clipboard, threads = QApplication.clipboard(), []
+    clipboard.setText("before")
+
+    def written(selection: Selection, report: Report) -> str:
+        threads.append(threading.current_thread())
+        while cancel.is_set():
+            report(0.5)
+        return text_from_keys(selection, report)
+
+    cancel = threading.Event()
+    cancel.set()
+    monkeypatch.setattr("app.actions.clipboard.text_from_keys", written)
+    meanwhile(lambda: press_escape(window))
+    window.actions_by_id["edit.cut"].run()
+    assert clipboard.text() == "before"
+    assert window.document.clip.key_count == 2 * KEYS
+    cancel.clear()
+    window.actions_by_id["edit.copy"].run()
+    assert clipboard.text().count("\n") == 2 * KEYS + 1
+    assert threading.main_thread() not in threads
+    window.session.playhead = 1e6
+    window.actions_by_id["edit.paste"].run()
+    assert window.document.clip.key_count == 4 * KEYS

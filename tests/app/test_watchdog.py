@@ -134,6 +134,24 @@ def test_no_change_of_a_million_keys_stops_the_window(make_window: MakeWindow, l
     assert too_long(scenario) == {}
 
 
+def test_no_text_of_very_many_keys_stops_the_window(make_window: MakeWindow, large: Path) -> None:
+    window = make_window(small_clip())
+    answers_of(window).answers["save_changes"] = Answer.DISCARD
+
+    def scenario() -> dict[str, float]:
+        assert window.open_file(str(large))
+        channel = window.document.clip.channels[0]
+        window.view.set_view(window.view.view_range._replace(t0=100.0, t1=104.0))
+        window.session.selection = Selection.of({channel: channel.keys_between(0.0, 6_000.0)["id"]})
+        window.session.playhead = 10_000.01
+        QTest.qWait(300)
+        pauses = {step: held_up(window.actions_by_id[f"edit.{step}"].run) for step in ("copy", "paste", "undo", "cut")}
+        assert len(channel) == KEYS - 144_001
+        return pauses
+
+    assert too_long(scenario) == {}
+
+
 def test_a_window_that_does_stop_is_noticed(
     make_window: MakeWindow, large: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
