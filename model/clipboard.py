@@ -45,15 +45,27 @@ def text_from_keys(selection: Selection, report: Report = unheard) -> str:
         raise ValueError(f"{selection.count:,} keys are too many for the clipboard, which takes {MOST_KEYS:,}")
     lines = [HEADER]
     for channel in selection.channels:
-        name = _escaped(channel.name)
-        for time, value, slope_in, slope_out, rule_in, rule_out, broken, _ in channel.keys_of(
-            selection.ids(channel)
-        ).tolist():
-            rules = f"{_WORDS[rule_in]}\t{_WORDS[rule_out]}\t{'broken' if broken else 'unified'}"
-            lines.append(f"{name}\t{time!r}\t{value!r}\t{slope_in!r}\t{slope_out!r}\t{rules}")
-            if len(lines) % AT_A_TIME == 0:
-                report(len(lines) / selection.count)
+        name, keys = _escaped(channel.name), channel.keys_of(selection.ids(channel))
+        # Piece by piece: no other thread goes on while records become Python numbers.
+        for first in range(0, len(keys), AT_A_TIME):
+            report(len(lines) / selection.count)
+            lines += [_line_from_row(name, *row) for row in keys[first : first + AT_A_TIME].tolist()]
     return "\n".join(lines) + "\n"
+
+
+def _line_from_row(
+    name: str,
+    time: float,
+    value: float,
+    slope_in: float,
+    slope_out: float,
+    rule_in: int,
+    rule_out: int,
+    broken: bool,
+    _id: int,
+) -> str:
+    side = "broken" if broken else "unified"
+    return f"{name}\t{time!r}\t{value!r}\t{slope_in!r}\t{slope_out!r}\t{_WORDS[rule_in]}\t{_WORDS[rule_out]}\t{side}"
 
 
 def keys_from_text(text: str, report: Report = unheard) -> CopiedKeys:
