@@ -1,5 +1,6 @@
 """What the number fields of the key inspector are about: one number of each of the selected keys."""
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -19,6 +20,8 @@ from widgets.numbers import factor_of, is_angle, shown, stored_from_shown
 type Floats = NDArray[np.float64]
 
 LONGEST_FORMULA: Final = 24
+# More keys than this would hold up the typing: they are changed when Enter is pressed.
+MOST_SHOWN: Final = 150_000
 NO_NUMBERS: Final = np.empty(0)
 
 
@@ -56,6 +59,7 @@ class KeyTarget(GestureHolder):
         self._keys = keys
         self._field = field
         self._selection = Selection.NONE
+        self._waiting: tuple[str, Callable[[Clip], list[Change]]] | None = None
 
     def numbers(self) -> Floats:
         return self._keys.numbers(self._field)
@@ -73,19 +77,34 @@ class KeyTarget(GestureHolder):
             self._selection = self.document.session.selection
         return super().gesture(label)
 
-    def preview(self, formula: Formula) -> None:
+    def preview(self, formula: Formula) -> str:
         selection = self._selection if self._gesture is not None else self.document.session.selection
         if all(channel.locked for channel in selection.channels):
             raise ValueError("the channel is locked" if len(selection.channels) == 1 else "all channels are locked")
 
         def changes(clip: Clip) -> list[Change]:
-            return edits.set_columns(
-                clip, self._selection, self._field, lambda c, keys: self._numbers(formula, c, keys)
-            )
+            return edits.set_columns(clip, selection, self._field, lambda c, keys: self._numbers(formula, c, keys))
 
         words = f"Set the {self._field.replace('_', ' ')} of"
         label = f"{self.document.label_of(words, selection)} ({_short(formula.text.strip())})"
+        if selection.count > MOST_SHOWN:
+            self.require_rest()
+            self._selection, self._waiting = selection, (label, changes)
+            return f"Enter: {label}"
         self.gesture(label).preview(changes, label=label)
+        return ""
+
+    def commit(self) -> None:
+        waiting, self._waiting = self._waiting, None
+        if waiting is None:
+            super().commit()
+            return
+        self.require_rest()
+        self.document.do(*waiting, keys=self._selection.count)
+
+    def cancel(self) -> None:
+        self._waiting = None
+        super().cancel()
 
     def _numbers(self, formula: Formula, channel: Channel, keys: Run) -> Floats:
         factor = _factor(channel, self._field)

@@ -21,10 +21,14 @@ class GestureHolder:
     def gesture(self, label: str) -> Gesture:
         """The gesture of this field, open; ValueError while another one is going on."""
         if self._gesture is None or not self._gesture.open:
-            if self.document.gesture is not None:
-                raise ValueError("finish the drag first, or press Esc to cancel it")
+            self.require_rest()
             self._gesture = self.document.begin(label)
         return self._gesture
+
+    def require_rest(self) -> None:
+        """ValueError while a gesture of somebody else is going on."""
+        if self.document.gesture is not None:
+            raise ValueError("finish the drag first, or press Esc to cancel it")
 
     def commit(self) -> None:
         """Keep what is shown as one undo step."""
@@ -55,7 +59,7 @@ class SettingTarget(GestureHolder):
     def step(self) -> float:
         return 1.0 if self._field == "frame_rate" else 1.0 / self.document.clip.frame_rate
 
-    def preview(self, formula: Formula) -> None:
+    def preview(self, formula: Formula) -> str:
         def changes(clip: Clip) -> list[Setting]:
             before = float(getattr(clip, self._field))
             after = float(formula(np.array([before]))[0])
@@ -63,6 +67,7 @@ class SettingTarget(GestureHolder):
 
         name = self._field.replace("_", " ")
         self.gesture(f"Set the {name} of the clip").preview(changes)
+        return ""
 
 
 class PlayheadTarget:
@@ -83,13 +88,14 @@ class PlayheadTarget:
     def step(self) -> float:
         return 1.0 if self._in_frames else 1.0 / self._document.clip.frame_rate
 
-    def preview(self, formula: Formula) -> None:
+    def preview(self, formula: Formula) -> str:
         session, clip = self._document.session, self._document.clip
         if self._came_from is None:
             self._came_from = session.playhead
         start = clip.frame_of(self._came_from) if self._in_frames else self._came_from
         number = float(formula(np.array([start]))[0])
         session.playhead = clip.time_of(number) if self._in_frames else number
+        return ""
 
     def commit(self) -> None:
         self._came_from = None

@@ -33,11 +33,11 @@ class Target(Protocol):
     def step(self) -> float:
         """How far one press of the up key goes."""
 
-    def preview(self, formula: Formula) -> None:
-        """Show what the formula does; ValueError if it cannot be done."""
+    def preview(self, formula: Formula) -> str:
+        """Show what the formula does; ValueError if it cannot be done. What is to be said if it cannot be shown yet."""
 
     def commit(self) -> None:
-        """Keep what is shown."""
+        """Keep what is shown, or do what could not be shown; ValueError if that cannot be done."""
 
     def cancel(self) -> None:
         """Take back what is shown."""
@@ -103,8 +103,12 @@ class ValueField(QLineEdit):
         if self._problem:
             self.take_back()
         elif self._previewed:
-            self.target.commit()
-            self._rest()
+            try:
+                self.target.commit()
+            except ValueError as error:
+                self._show_problem(str(error))
+            else:
+                self._rest()
 
     def take_back(self) -> None:
         """Take back what is being typed."""
@@ -144,12 +148,14 @@ class ValueField(QLineEdit):
 
     def _preview(self, text: str) -> bool:
         try:
-            self.target.preview(Formula(text))
+            words = self.target.preview(Formula(text))
         except (ExpressionError, ValueError) as error:
             self._show_problem(str(error))
             return False
         self._previewed = True
         self._show_problem("")
+        if words:
+            self.status.emit(f"{self.accessibleName()}: {words}")
         return True
 
     def _back_to_start(self) -> None:
@@ -216,7 +222,8 @@ class ValueField(QLineEdit):
             if not self._problem:
                 self.finish()
                 self.selectAll()
-                self.done.emit()
+                if not self._problem:
+                    self.done.emit()
         elif key == Qt.Key.Key_Escape:
             self.take_back()
             self.selectAll()

@@ -274,3 +274,30 @@ def test_tab_walks_down_the_fields(inspector, document, tx):
 
 def test_every_override_is_guarded():
     assert unguarded(QuietCombo) == []
+
+
+def test_numbers_of_very_many_keys_are_set_when_enter_is_pressed(inspector, document, tx, monkeypatch):
+    monkeypatch.setattr("widgets.key_targets.MOST_SHOWN", 2)
+    select(document, tx, [0, 1, 2])
+    inspector.key.refresh()
+    field = inspector.key.fields["value"]
+    said, before = QSignalSpy(field.status), tx.run()["value"].tolist()
+    edits_made = []
+    document.committed.connect(edits_made.append)
+    field.setFocus()
+    QTest.keyClicks(field, "*=0.5")
+    assert tx.run()["value"].tolist() == before
+    assert document.gesture is None
+    assert "Enter" in said.at(said.count() - 1)[0]
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    assert tx.run()["value"].tolist() == [value / 2 for value in before]
+    QTest.keyClicks(field, "+=1")
+    QTest.keyClick(field, Qt.Key.Key_Escape)
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    assert len(edits_made) == 1
+    QTest.keyClicks(field, "1/(v-1)")  # one of them is 1 by now: what cannot be done is said, and nothing is done
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    assert len(edits_made) == 1
+    assert field.editing
+    QTest.keyClick(field, Qt.Key.Key_Escape)
+    assert not field.editing
