@@ -11,30 +11,28 @@ from numpy.typing import ArrayLike
 from model import envelope, evaluation
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation
 from model.hermite import LARGEST, Floats
-from model.lookup import RECORD, SLOTS_A_TIME, TABLE_TIMES, Table, span_records
+from model.lookup import DOUBLE, SLOTS_A_TIME, TABLE_TIMES, Table, span_struct
 from model.rows import D_TIME, TIME, VALUE, A, B, C, Rows
 
-# One span in Python numbers: (time0, time1, d_time, a, b, c, d); the last key holds its own time only.
-type Span = tuple[float, float, float, float, float, float, float]
+# One span in Python numbers: (time0, time1, d, a, b, c); the last key holds its own time only.
+type Span = tuple[float, float, float, float, float, float]
 
-_NOWHERE: Span = (inf, -inf, 1.0, 0.0, 0.0, 0.0, 0.0)
+_NOWHERE: Span = (inf, -inf, 0.0, 0.0, 0.0, 0.0)
 _SPAN_COLUMNS = [D_TIME, A, B, C]
 # Channels of up to so many keys keep their times and spans as Python numbers once values are asked for.
 _KEPT_SPANS = 4096
-# Once one value was searched for so many slots of a longer channel, a table has paid for itself.
-_SLOTS_SEARCHED = 64
-# Up to so many slots a channel is laid out anew, a record a span: one read brings it, and one line of the cache.
-_RECORD_SLOTS = 1 << 18
-# How far a value is looked for behind the slot that the table gives.
+# A search for one value takes about as long as the making of a table for so many slots. So a longer channel gets one
+# once its searches have taken as long as that: whatever is asked then, it was no more than twice the least possible.
+_SLOTS_A_SEARCH = 256
+# How far a value is looked for behind the place that the table gives.
 _STEPS = 8
 
-type _Numbers = "memoryview[float]"
-# The records and, of the table, the place of each bucket's first record, its start, its buckets a second, its end.
-type _Recorded = tuple[Callable[[Buffer, int], Span], Buffer, "memoryview[int]", float, float, float]
-# Columns by slot (time, value, a, b, c, d_time), and of the table its slots, its start, its buckets a second, its end.
-type _Seekable = tuple[
-    _Numbers, _Numbers, _Numbers, _Numbers, _Numbers, _Numbers, "memoryview[int]", float, float, float
-]
+type _Read = Callable[[Buffer, int], Span]
+# What reads a span, the columns it reads, and of the table its places there in bytes, its start, its buckets a second;
+# the last key's time.
+type _Seekable = tuple[_Read, Buffer, "memoryview[int]", float, float, float]
+
+_NOT_YET: _Seekable = (cast("_Read", span_struct(2).unpack_from), b"", memoryview(b"").cast("i"), inf, 0.0, -inf)
 
 
 class Spans(NamedTuple):
@@ -64,8 +62,7 @@ class Curve:
         self._extremes: envelope.Extremes | None = None
         self._hit = _NOWHERE
         self._searched = 0
-        self._seekable: _Seekable | None = None
-        self._recorded: _Recorded | None = None
+        self._seekable = _NOT_YET
         # All times of a short channel, and those of its spans that were asked for; at the end one that is nowhere.
         self._times_kept: list[float] = []
         self._spans_kept = [_NOWHERE]
@@ -77,7 +74,7 @@ class Curve:
         self.revision += 1
         self._ends = self._table = self._whole_range = None
         self._hit = _NOWHERE
-        self._searched, self._seekable, self._recorded = 0, None, None
+        self._searched, self._seekable = 0, _NOT_YET
         self._times_kept, self._spans_kept = [], [_NOWHERE]
 
     def _the_ends(self) -> Ends:
@@ -108,29 +105,35 @@ class Curve:
 
     def value(self, time: float) -> float:
         """The value at one time, bit for bit that of `evaluate`."""
-        time = float(time)
+        if type(time) is not float:
+            time = float(time)
         span = self._hit
+        # The ways to find a span are written out here: a call more would cost a tenth of the whole.
         if not span[0] <= time < span[1]:
-            recorded = self._recorded
-            if recorded is not None and recorded[3] <= time < recorded[5]:
-                # As _seek does. Written out here: a call more would cost a fifth of the whole.
-                read, records, places, start, per_second, _ = recorded
-                place = places[int((time - start) * per_second)]
-                span = read(records, place)
-                stop = place + _STEPS * RECORD.size
-                while span[1] <= time:
-                    place += RECORD.size
-                    span = read(records, place)
-                    if place == stop:
-                        span = self._search(time) or _NOWHERE
-                self._hit = span
+            if self._times_kept:
+                # Before the first key this is the last entry, in which no time is.
+                span = self._spans_kept[bisect_right(self._times_kept, time) - 1]
+                known = span[0] <= time < span[1]
             else:
-                found = self._find(time) if self._times_kept else self._seek(time)
+                read, columns, places, start, per_second, end = self._seekable
+                known = start <= time < end
+                if known:
+                    # As Table.slots finds many: one of the next few, or else by bisection.
+                    place = places[int((time - start) * per_second)]
+                    span = read(columns, place)
+                    if span[1] <= time:
+                        span = read(columns, place + DOUBLE)
+                        if span[1] <= time:
+                            span = _further(time, read, columns, place)
+                            known = span is not _NOWHERE
+            if not known:
+                found = self._search(time)
                 if found is None:
                     return self._value_outside(time)
-                span = self._hit = found
-        time0, _, d_time, a, b, c, d = span
-        u = (time - time0) / d_time
+                span = found
+            self._hit = span
+        time0, time1, d, a, b, c = span
+        u = (time - time0) / (time1 - time0)
         value = d + u * (c + u * (b + u * a))
         if value and value - value == 0.0:
             return value
@@ -139,7 +142,7 @@ class Curve:
     def _careful_value(self, time: float, value: float, span: Span) -> float:
         """*value* at *time*, which is 0 or no number, as `evaluate` gives it."""
         if value == 0.0:
-            return span[6] if time == span[0] else value
+            return span[2] if time == span[0] else value
         slot = self._rows.slot(self._rows.rank_at(time) - 1)
         return float(evaluation.careful(self._rows, np.array([slot]), np.array([time]))[0])
 
@@ -152,63 +155,38 @@ class Curve:
         value = self.value(inner)
         return min(max(value + shift, -LARGEST), LARGEST) if shift else value
 
-    def _find(self, time: float) -> Span | None:
-        """The span of a short channel that *time* lies in; None outside the keys."""
-        # Before the first key this is the last entry, in which no time is.
-        span = self._spans_kept[bisect_right(self._times_kept, time) - 1]
-        return span if span[0] <= time < span[1] else self._search(time)
-
-    def _seek(self, time: float) -> Span | None:
-        """The span of a long channel that *time* lies in; None outside the keys."""
-        seekable = self._seekable
-        if seekable is not None:
-            times, values, a, b, c, d_times, last, start, per_second, end = seekable
-            if start <= time < end:
-                # As Table.slots finds many: one of the next few, or else by bisection.
-                slot = last[int((time - start) * per_second)]
-                stop = slot + _STEPS
-                while times[slot + 1] <= time:
-                    slot += 1
-                    if slot == stop:
-                        return self._search(time)
-                return times[slot], times[slot + 1], d_times[slot], a[slot], b[slot], c[slot], values[slot]
-        return self._search(time)
-
     def _search(self, time: float) -> Span | None:
-        """The same by bisection. Short channels keep what they found; long ones get a table for the next times."""
+        """The span that *time* lies in, by bisection; None outside the keys.
+
+        Short channels keep what they found; long ones get a table for the next times.
+        """
         rows = self._rows
         if not rows.size or not rows.times[0] <= time <= rows.times[-1]:
             return None
         rank = rows.rank_at(time) - 1
         slot = rows.slot(rank)
-        time0, value, _, _, a, b, c, d_time = rows.numbers[:, slot].tolist()
+        time0, value, _, _, a, b, c, _ = rows.numbers[:, slot].tolist()
         time1 = float(rows.times[rows.slot(rank + 1)]) if rank + 1 < rows.size else nextafter(time0, inf)
-        span = (time0, time1, d_time, a, b, c, value)
+        span = (time0, time1, value, a, b, c)
         if rows.size <= _KEPT_SPANS:
             if not self._times_kept:
                 self._spans_kept = [_NOWHERE] * (rows.size + 1)
                 self._times_kept = rows.times[rows.slots(np.arange(rows.size))].tolist()
             self._spans_kept[rank] = span
-        else:
-            self._searched += _SLOTS_SEARCHED
+        elif self._seekable is _NOT_YET:
+            self._searched += _SLOTS_A_SEARCH
             if self._searched > len(rows.ids):
                 self._make_seekable()
         return span
 
     def _make_seekable(self) -> None:
-        """Lay out what `_seek` reads: numbers come out of memoryviews more quickly than out of arrays."""
+        """Get ready to read spans straight out of the rows, which the table of `evaluate` finds."""
         rows = self._rows
         table = self._table = self._table or Table(rows)
-        if table.usable and len(rows.ids) <= _RECORD_SLOTS:
-            records = memoryview(span_records(rows)).cast("B")
-            places = memoryview(table.last * np.int32(RECORD.size))
-            read = cast("Callable[[Buffer, int], Span]", RECORD.unpack_from)
-            self._recorded = read, records, places, table.start, table.per_second, float(rows.times[-1])
-        elif table.usable:
-            columns = (TIME, VALUE, A, B, C, D_TIME)
-            times, values, a, b, c, d_times = (cast("_Numbers", memoryview(rows.numbers[i])) for i in columns)
-            last, end = memoryview(table.last), float(rows.times[-1])
-            self._seekable = (times, values, a, b, c, d_times, last, table.start, table.per_second, end)
+        if table.usable:
+            read = cast("_Read", span_struct(len(rows.ids)).unpack_from)
+            columns, places = memoryview(rows.numbers).cast("B"), memoryview(table.last * np.int32(DOUBLE))
+            self._seekable = read, columns, places, table.start, table.per_second, float(rows.times[-1])
 
     def slopes(self, times: ArrayLike, side: str = "out") -> Floats:
         """The slopes at *times* in value per second; at a corner the one to the right ("out") or left ("in")."""
@@ -292,3 +270,12 @@ class Curve:
         if self._extremes is None or self._extremes.numbers is not self._rows.numbers:
             self._extremes = envelope.Extremes(self._rows)
         return envelope.envelope(self._rows, self._extremes, self._the_ends(), array, self.pre, self.post)
+
+
+def _further(time: float, read: _Read, columns: Buffer, place: int) -> Span:
+    """The span that *time* lies in, if it is one of the next few behind *place*; else _NOWHERE."""
+    for step in range(2, _STEPS):
+        span = read(columns, place + step * DOUBLE)
+        if time < span[1]:
+            return span
+    return _NOWHERE

@@ -7,10 +7,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from model import curve, evaluation
+from model import curve, evaluation, lookup
 from model.channel import Channel
 from model.extrapolation import Extrapolation
 from model.keyframe import Run, TangentRule, make_run
+from model.lookup import TABLE_TIMES
+from model.rows import FILLED, Rows
 from tests.exact import exact_channel, rounded, scale_of
 from tests.model.drawn import bits, channels, finite, modes, random_run, runs
 
@@ -124,12 +126,8 @@ def test_keys_crowded_in_a_corner_are_found_too() -> None:
     assert one_by_one(channel, many[::7]) == expected[::7].tolist()
 
 
-@pytest.mark.parametrize("recorded", [True, False])
-def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them(
-    monkeypatch: pytest.MonkeyPatch, recorded: bool
-) -> None:
+def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them() -> None:
     n = 2 * curve._KEPT_SPANS
-    monkeypatch.setattr(curve, "_RECORD_SLOTS", 16 * n if recorded else 0)
     channel = Channel("x", random_run(4, n), post=Extrapolation.CYCLE)
     times = channel.run()["time"]
     asked = np.concatenate(
@@ -138,7 +136,33 @@ def test_values_of_a_long_channel_are_the_same_once_a_table_finds_them(
     expected = channel.evaluate(asked)
     for _ in range(2):
         assert bits(one_by_one(channel, asked)) == bits(expected)
-    assert (channel._recorded is not None, channel._seekable is not None) == (recorded, not recorded)
+    assert channel._seekable is not curve._NOT_YET
+
+
+def test_values_are_found_behind_the_spare_places_of_rows_without_another_table(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tables: list[lookup.Table] = []
+
+    def counted(rows: Rows) -> lookup.Table:
+        tables.append(lookup.Table(rows))
+        return tables[-1]
+
+    monkeypatch.setattr(curve, "Table", counted)
+    n = 2 * curve._KEPT_SPANS
+    channel = Channel("x", random_run(6, n))
+    # A row of few keys has more spare places than are looked at one by one.
+    gone = channel.run()[FILLED + 20 : FILLED + 300]
+    channel.splice(gone, gone[:0])
+    times = channel.run()["time"]
+    beside = np.concatenate([times, np.nextafter(times, -np.inf)[1:], np.nextafter(times, np.inf)[:-1]])
+    expected = channel.evaluate(beside[:TABLE_TIMES])
+    one_by_one(channel, times[: n // 4])
+    seekable = channel._seekable
+    assert bits(one_by_one(channel, beside[:TABLE_TIMES])) == bits(expected)
+    assert bits(one_by_one(channel, beside)) == bits(channel.evaluate(beside))
+    assert channel._seekable is seekable is not curve._NOT_YET
+    assert len(tables) == 1
 
 
 def test_what_is_kept_for_speed_never_outlives_an_edit() -> None:
@@ -157,17 +181,29 @@ def test_what_is_kept_for_speed_never_outlives_an_edit() -> None:
         assert bits(channel.envelope(edges)) == bits(fresh.envelope(edges))
 
 
-@pytest.mark.parametrize("record_slots", [0, 1 << 18])
-def test_one_value_of_a_long_channel_follows_an_edit(monkeypatch: pytest.MonkeyPatch, record_slots: int) -> None:
-    monkeypatch.setattr(curve, "_RECORD_SLOTS", record_slots)
+@pytest.mark.parametrize("edit", ["raised", "later", "thinned", "gone in part", "repeated"])
+def test_one_value_of_a_long_channel_follows_an_edit(edit: str) -> None:
     channel = Channel("x", random_run(5, 2 * curve._KEPT_SPANS))
     run = channel.run()
     asked = np.random.default_rng(2).uniform(0.0, run["time"][-1], 3000)
     one_by_one(channel, asked)
+    assert channel._seekable is not curve._NOT_YET
     after = run.copy()
-    after["value"] += 1.0
-    channel.splice(run, after)
-    assert bits(one_by_one(channel, asked)) == bits(channel.evaluate(asked))
+    if edit == "raised":
+        after["value"] += 1.0
+    elif edit == "later":
+        after["time"][:-1] += 0.5 * np.diff(run["time"])
+    elif edit == "thinned":
+        after = after[::2]
+    elif edit == "gone in part":
+        run, after = run[300:1200], after[300:300]
+    if edit == "repeated":
+        channel.set_extrapolation(Extrapolation.CYCLE, Extrapolation.BOUNCE)
+        asked += 10.0
+    else:
+        channel.splice(run, after)
+    for _ in range(2):
+        assert bits(one_by_one(channel, asked)) == bits(channel.evaluate(asked))
 
 
 @pytest.mark.parametrize("n", [5, 10_000])
