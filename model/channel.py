@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model import checking, evaluation, splicing
+from model import checking, evaluation, splicing, within
 from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
@@ -203,6 +203,14 @@ class Channel(Curve):
     def count_between(self, t0: float, t1: float) -> int:
         """How many keys have t0 <= time <= t1."""
         return max(0, self._rows.rank_at(t1) - self._rows.rank_at(t0, after=False))
+
+    def keys_within(self, t0: float, t1: float, low: float, high: float) -> within.KeysWithin:
+        """The keys with t0 <= time <= t1 and low <= value <= high."""
+        return within.keys_within(self._rows, t0, t1, low, high)
+
+    def spans_within(self, t0: float, t1: float, low: float, high: float, long: float) -> within.SpansWithin:
+        """The spans that touch [t0, t1] and from key to key [low, high]; and all that last more than *long* seconds."""
+        return within.spans_within(self._rows, t0, t1, low, high, long)
 
     def neighbours(self, time: float) -> tuple[Keyframe | None, Keyframe | None]:
         """(the last key at or before *time*, the first key after it)."""

@@ -116,6 +116,8 @@ class Session:
     def shown_channels(self, clip: Clip) -> list[Channel]:
         """The channels that the graph draws, in the clip's order."""
         hidden, solo = self._hidden, self._solo
+        if not hidden and not solo:
+            return clip.channels.copy()
         return [channel for channel in clip.channels if channel not in hidden and (not solo or channel in solo)]
 
     # --- how the tools behave
