@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QWidget
 
 from model.channel import Channel
 from model.document import Document
+from model.sampling import Window
 
 if TYPE_CHECKING:
     from widgets.hit_test import Hit
@@ -44,6 +45,9 @@ class Graph(Protocol):
 
     @property
     def plot_rect(self) -> QRectF: ...
+
+    @property
+    def window_now(self) -> Window: ...
 
     @overload
     def x_from_time(self, time: float) -> float: ...

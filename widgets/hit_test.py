@@ -2,11 +2,9 @@
 
 from collections.abc import Iterator
 from enum import Enum, auto
+from math import hypot
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
-
-import numpy as np
-from numpy.typing import NDArray
 
 from model.channel import Channel
 from widgets.graph import Graph
@@ -14,10 +12,6 @@ from widgets.hit_strips import Near, Strip, strip_width
 from widgets.lens import Lens
 
 RADIUS = 8.0
-# How much nearer an unselected thing must be than a selected one to be preferred, pixels.
-PREFERENCE = 4.0
-
-type Floats = NDArray[np.float64]
 
 
 class Hit(NamedTuple):
@@ -85,8 +79,8 @@ def hit_ruler(graph: Graph, x: float, y: float, radius: float = RADIUS) -> Hit:
 
 def hit_all(graph: Graph, x: float, y: float, radius: float = RADIUS) -> list[Hit]:
     """Everything within *radius* pixels: keys, handles, curves, then what is locked; the nearest of each first."""
-    found = [hit for kind in _test_of(graph).by_kind(graph, x, y, radius) for hit in kind]
-    return sorted(found, key=_is_locked)
+    kinds = _test_of(graph).by_kind(graph, x, y, radius)
+    return sorted((found.hit(i) for found in kinds for i in range(len(found.kinds))), key=_is_locked)
 
 
 def hit(graph: Graph, x: float, y: float, cycle: int = 0, radius: float = RADIUS) -> Hit:
@@ -94,18 +88,36 @@ def hit(graph: Graph, x: float, y: float, cycle: int = 0, radius: float = RADIUS
 
     What is locked covers nothing that can be taken.
     """
-    locked: list[Hit] = []
-    for kind in _test_of(graph).by_kind(graph, x, y, radius):
-        free = [found for found in kind if not _is_locked(found)]
+    locked: Hit | None = None
+    for found in _test_of(graph).by_kind(graph, x, y, radius):
+        free = [i for i, channel in enumerate(found.near.owners) if not channel.locked]
         if free:
-            return free[cycle % len(free)]
-        locked += kind
-    return locked[0] if locked else Hit("empty", time=graph.time_from_x(x), value=graph.value_from_y(y))
+            return found.hit(free[cycle % len(free)])
+        if found.kinds and locked is None:
+            locked = found.hit(0)
+    return locked or Hit("empty", time=graph.time_from_x(x), value=graph.value_from_y(y))
 
 
-type Owner = tuple[str, Channel, int]  # "handle_in" or "handle_out" of a key
+class Found(NamedTuple):
+    """What is near of one sort, what is meant most likely first."""
 
-NO_HANDLES: tuple[Floats, list[Owner]] = (np.empty((0, 2)), [])
+    kinds: list[str]
+    near: Near
+
+    def hit(self, place: int) -> Hit:
+        """One of them."""
+        channels, ids, times, values, distances = self.near
+        return Hit(self.kinds[place], channels[place], ids[place], times[place], values[place], distances[place])
+
+
+class End(NamedTuple):
+    """The end of a tangent on the screen."""
+
+    x: float
+    y: float
+    kind: str  # "handle_in" or "handle_out"
+    channel: Channel
+    id: int
 
 
 class HitTest:
@@ -116,9 +128,9 @@ class HitTest:
         self._strips: dict[int, Strip] = {}
         self._width = 1
         self._handle_stamp: tuple[object, ...] = ()
-        self._handles = NO_HANDLES
+        self._handles: list[End] = []
 
-    def by_kind(self, graph: Graph, x: float, y: float, radius: float) -> Iterator[list[Hit]]:
+    def by_kind(self, graph: Graph, x: float, y: float, radius: float) -> Iterator[Found]:
         """Keys, handles and curves within the radius, worked out as they are asked for."""
         session = graph.document.session
         channels = session.shown_channels(graph.document.clip)
@@ -126,12 +138,11 @@ class HitTest:
             return
         lens = Lens(graph)
         strip = self._strip(lens, channels, x)
-        chosen, active = session.selection, session.active
-        keys = _hits("key", strip.keys_near(lens, chosen, x, y, radius))
-        yield sorted(keys, key=lambda hit: (_preferred(hit, chosen.contains(_channel(hit), hit.id)), hit.distance))
-        yield self._handles_near(graph, lens, channels, x, y, radius)
-        curves = _hits("curve", strip.curves_near(lens, x, y, radius))
-        yield sorted(curves, key=lambda hit: _preferred(hit, hit.channel is active))
+        keys = strip.keys_near(lens, session.selection, x, y, radius)
+        yield Found(["key"] * len(keys.ids), keys)
+        yield self._handles_near(graph, lens, x, y, radius)
+        curves = strip.curves_near(lens, session.active, x, y, radius)
+        yield Found(["curve"] * len(curves.ids), curves)
 
     def _strip(self, lens: Lens, channels: list[Channel], x: float) -> Strip:
         axis = (lens.left, lens.right, lens.t0, lens.t1)
@@ -145,57 +156,35 @@ class HitTest:
         strip.refresh(channels)
         return strip
 
-    def _handles_near(
-        self, graph: Graph, lens: Lens, channels: list[Channel], x: float, y: float, radius: float
-    ) -> list[Hit]:
-        spots, owners = self._handle_spots(graph, lens, channels)
-        if not owners:
-            return []
-        distances = np.hypot(spots[:, 0] - x, spots[:, 1] - y)
-        near = np.flatnonzero(distances <= radius)
-        hits = []
-        for i in near[np.argsort(distances[near], kind="stable")].tolist():
-            kind, channel, key_id = owners[i]
-            time, value = lens.time(float(spots[i, 0])), lens.value(float(spots[i, 1]))
-            hits.append(Hit(kind, channel, key_id, time, value, float(distances[i])))
-        return hits
+    def _handles_near(self, graph: Graph, lens: Lens, x: float, y: float, radius: float) -> Found:
+        away = [(hypot(end.x - x, end.y - y), i) for i, end in enumerate(self._handle_ends(graph, lens))]
+        near = sorted(pair for pair in away if pair[0] <= radius)
+        ends = [self._handles[i] for _, i in near]
+        times, values = [lens.time(end.x) for end in ends], [lens.value(end.y) for end in ends]
+        found = Near([end.channel for end in ends], [end.id for end in ends], times, values, [pair[0] for pair in near])
+        return Found([end.kind for end in ends], found)
 
-    def _handle_spots(self, graph: Graph, lens: Lens, channels: list[Channel]) -> tuple[Floats, list[Owner]]:
+    def _handle_ends(self, graph: Graph, lens: Lens) -> list[End]:
         """The ends of the tangents as the view draws them."""
         selection = graph.document.session.selection
         if not selection:
-            return NO_HANDLES
-        chosen = [channel for channel in channels if len(selection.ids(channel))]
+            return []
         window = (*self._axis, lens.top, lens.bottom, lens.v0, lens.v1)
-        stamp = (window, selection, chosen, [(channel.revision, channel.locked) for channel in chosen])
+        # No key is selected of a channel that is not shown.
+        stamp = (window, selection, [(channel, channel.revision, channel.locked) for channel in selection.channels])
         if stamp != self._handle_stamp:
-            ends = [
-                (end, (kind, drawn.channel, drawn.id))
+            handles = [
+                End(*end, kind, drawn.channel, drawn.id)
                 for drawn in graph.drawn_handles()
                 for kind, end in (("handle_in", drawn.into), ("handle_out", drawn.out))
                 if end is not None
             ]
-            spots = np.array([end for end, _ in ends]).reshape(-1, 2)
-            self._handle_stamp, self._handles = stamp, (spots, [owner for _, owner in ends])
+            self._handle_stamp, self._handles = stamp, handles
         return self._handles
-
-
-def _hits(kind: str, near: Near) -> list[Hit]:
-    columns = (near.ids.tolist(), near.times.tolist(), near.values.tolist(), near.distances.tolist())
-    return [Hit(kind, *columns_of_one) for columns_of_one in zip(near.owners, *columns, strict=True)]
-
-
-def _channel(hit: Hit) -> Channel:
-    assert hit.channel is not None
-    return hit.channel
 
 
 def _is_locked(hit: Hit) -> bool:
     return hit.channel is not None and hit.channel.locked
-
-
-def _preferred(hit: Hit, chosen: bool) -> float:
-    return hit.distance + (0.0 if chosen else PREFERENCE)
 
 
 def _test_of(graph: Graph) -> HitTest:

@@ -14,10 +14,8 @@ class Lens:
     """What graph.x_from_time and its sisters say now; both axes are linear, so the corners of the plot are enough."""
 
     def __init__(self, graph: Graph) -> None:
-        plot = graph.plot_rect
-        self.left, self.right, self.top, self.bottom = plot.left(), plot.right(), plot.top(), plot.bottom()
-        self.t0, self.t1 = graph.time_from_x(self.left), graph.time_from_x(self.right)
-        self.v0, self.v1 = graph.value_from_y(self.bottom), graph.value_from_y(self.top)
+        self.left, self.top, width, height, self.t0, self.t1, self.v0, self.v1, _ = graph.window_now
+        self.right, self.bottom = self.left + width, self.top + height
         self._time_per_x = (self.t1 - self.t0) / (self.right - self.left)
         self._value_per_y = (self.v1 - self.v0) / (self.top - self.bottom)
 

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QWidget
 from model.channel import Channel
 from model.document import Document
 from model.event import Event
+from model.sampling import Window
 from widgets.graph import DrawnHandle, Frame
 from widgets.hit_test import Hit
 
@@ -23,6 +24,11 @@ class FakeGraph:
         self.range = range_
         self.view_changed: Any = Event[()]()
         self.shown: dict[str, Any] = {}
+
+    @property
+    def window_now(self) -> Window:
+        plot = self.plot_rect
+        return Window(plot.left(), plot.top(), plot.width(), plot.height(), *self.range)
 
     def x_from_time(self, time: Any) -> Any:
         t0, t1 = self.range[:2]
