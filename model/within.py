@@ -45,12 +45,13 @@ def keys_within(rows: Rows, t0: float, t1: float, low: float, high: float) -> Ke
     if not len(slots):
         return NO_KEYS
     slots += first
-    # Spare slots repeat the key before them.
-    real = times[slots] != times[slots - 1]
+    found = times[slots]
+    real = times[slots - 1] != found
     if slots[0] == 0:
         real[0] = True
-    slots = slots[real]
-    return KeysWithin(times[slots], values[slots], rows.ids[slots].astype(np.int64))
+    if not real.all():  # spare slots repeat the key before them
+        slots, found = slots[real], found[real]
+    return KeysWithin(found, values[slots], rows.ids[slots].astype(np.int64))
 
 
 def spans_within(rows: Rows, t0: float, t1: float, low: float, high: float, long: float) -> SpansWithin:

@@ -155,7 +155,8 @@ class Strip:
             if upright is None:
                 times, values, ids = self._channels[place].keys_within(*box)
                 if len(ids):
-                    found.append(np.array([times, values, ids, np.full(len(ids), place)]))
+                    found.append(part := np.empty((4, len(ids))))
+                    part[0], part[1], part[2], part[3] = times, values, ids, place
         if not found:
             return NOTHING
         keys = np.concatenate(found, axis=1) if len(found) > 1 else found[0]
@@ -169,7 +170,8 @@ class Strip:
             kept = distances <= _reach(distances)
             if chosen.any():
                 kept |= chosen & (distances <= _reach(distances[chosen]))
-            keys, distances, chosen = keys[:, kept], distances[kept], chosen[kept]
+            (near,) = kept.nonzero()
+            keys, distances, chosen = keys.take(near, axis=1), distances.take(near), chosen.take(near)
         preferred = np.where(chosen, distances, distances + PREFERENCE)
         order = np.lexsort((keys[3], keys[0], distances, preferred))
         times, values, ids, places = keys.take(order, axis=1).tolist()
@@ -181,10 +183,16 @@ class Strip:
     def _selected(self, selection: Selection, keys: Floats) -> Flags:
         chosen = np.zeros(keys.shape[1], np.bool_)
         wanted = {self._places.get(channel) for channel in selection.channels}
-        for place in wanted.intersection(keys[3].tolist()):
-            (mine,) = (keys[3] == place).nonzero()
-            ids, selected = keys[2, mine].astype(np.int64), selection.ids(self._channels[int(place or 0)])
-            chosen[mine] = selected.take(selected.searchsorted(ids), mode="clip") == ids
+        if len(wanted) > MOST_LOOSE:
+            wanted.intersection_update(map(int, keys[3].tolist()))
+        for place in wanted.difference((None,)):
+            selected, mine = selection.ids(self._channels[place or 0]), keys[3] == place
+            if len(selected) > 1:
+                ids = keys[2].astype(np.int64)
+                mine &= selected.take(selected.searchsorted(ids), mode="clip") == ids
+            else:
+                mine &= keys[2] == selected[0]
+            chosen |= mine
         return chosen
 
     def curves_near(self, lens: Lens, active: Channel | None, x: float, y: float, radius: float) -> Near:
@@ -250,10 +258,11 @@ class _Merged:
     def keys_within(self, box: Box) -> Floats:
         """The keys in the box, as columns."""
         times = self._keys[0]
-        part = self._keys[:, int(times.searchsorted(box.t0, "left")) : int(times.searchsorted(box.t1, "right"))]
-        values = part[1]
+        first, last = int(times.searchsorted(box.t0, "left")), int(times.searchsorted(box.t1, "right"))
+        values = self._keys[1, first:last]
         (near,) = ((values >= box.low) & (values <= box.high)).nonzero()
-        found: Floats = part.take(near, axis=1)
+        near += first
+        found: Floats = self._keys.take(near, axis=1)
         return found
 
     def segments_within(self, box: Box) -> tuple[Ints, Floats]:
@@ -286,4 +295,6 @@ def _reach(distances: Floats) -> float:
     """Up to which distance the nearest are; very many only if all are equally near."""
     if len(distances) <= MAX_NEAR:
         return inf
-    return float(np.partition(distances, MAX_NEAR - 1)[MAX_NEAR - 1])
+    parted = distances.copy()
+    parted.partition(MAX_NEAR - 1)
+    return float(parted[MAX_NEAR - 1])

@@ -166,3 +166,16 @@ def test_keys_at_the_same_place_are_stepped_through_in_the_same_order_after_an_e
             "Move", lambda clip, channel=channel: edits.move(clip, Selection.of_key(channel, 2), 0.0, 1.0)
         )
         assert [found.channel for found in hit_all(graph, 250, 730)] == before
+
+
+@pytest.mark.parametrize("chosen", [[17], [1, 17], list(range(1, 101))])
+def test_the_nearest_selected_key_is_met_among_thousands_nearer_than_it(chosen: list[int]) -> None:
+    channels = [Channel(f"c{i}", make_run(np.linspace(1.99, 2.01, 5_001), 2.0 + i / 50)) for i in range(12)]
+    graph = FakeGraph(Document(Clip(channels)))
+    graph.document.session.selection = Selection.of(dict.fromkeys(channels[:9], chosen))
+    for channel in channels[:9]:
+        found = [one for one in hit_all(graph, 250.0, graph.y_from_value(2.0)) if one.kind == "key"]
+        assert (found[0].channel, found[0].id in chosen) == (channels[0], True)
+        assert len(found) <= 2 * hit_strips.MAX_NEAR + 2  # some are exactly as near as others
+        run = channel.run_of([17])
+        channel.splice(run, run)  # it has changed, and is asked itself from now on
