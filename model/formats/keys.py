@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.formats.content import joined
-from model.formats.decimals import CELL, Cells, fill_cells
 from model.formats.error import MAX_KEYS, MAX_TOKEN_BYTES, TextError, shown
 from model.formats.key_errors import first_error, order_error
 from model.formats.numerals import Columns, columns_of
 from model.formats.scanner import Scanner
 from model.formats.side_by_side import side_by_side
+from model.formats.spelling import Octets, octet, spelled
 from model.keyframe import KEY_DTYPE, Run, TangentRule
 from model.progress import Report, unheard
 
@@ -176,10 +176,11 @@ class KeyWriter:
 
     def __init__(self, words: dict[int, str], indent: str, separator: str, *, flags: bool) -> None:
         self.flags = flags
-        self._indent = _quads(indent, (len(indent) + 3) // 4)
-        self._separator = _quads(separator, 1)[0]
-        self._words = np.array([_quads(words.get(rule, ""), 2) for rule in range(max(TangentRule) + 1)])
-        self._ends = _quads("\n", 2), _quads(f"{separator}{BROKEN.decode()}\n", 2)
+        self._indent, self._separator = indent.encode(), separator.encode()
+        texts = [f"{separator}{words[rule]}" if rule in words else "" for rule in range(max(TangentRule) + 1)]
+        self._words = np.array([octet(text.encode()) for text in texts])
+        self._last_words = np.array([octet(f"{text}\n".encode()) for text in texts])
+        self._ends = np.array([octet(b"\n"), octet(f"{separator}{BROKEN.decode()}\n".encode())])
 
     def texts(self, runs: Sequence[Run], report: Report = unheard) -> list[list[bytes]]:
         """The lines of each run, in pieces; all runs are worked on together, since there may be many short ones."""
@@ -194,35 +195,25 @@ class KeyWriter:
         return [[text[first:last]] for first, last in pairwise(cuts)]
 
     def _lines(self, run: Run) -> bytes:
-        """Cells of four bytes each, side by side; where a cell is not full there are NULs, which are taken out."""
-        n = len(run)
-        tangents = [(run[f"rule_{side}"], run[f"slope_{side}"]) for side in ("in", "out")]
-        widths = [CELL if (rules == _FIXED).any() else 3 for rules, _ in tangents]
-        broken = run["broken"] if self.flags else np.zeros(n, np.bool_)
-        widths = [len(self._indent), CELL, CELL, *widths, 2 if broken.any() else 1]
-        line = np.zeros((n, sum(widths)), np.uint32)
-        indent, times, values, tangents_in, tangents_out, end = np.split(line, np.cumsum(widths)[:-1], axis=1)
-        indent[:] = self._indent
-        fill_cells(times, np.ascontiguousarray(run["time"]))
-        values[:, 0] = tangents_in[:, 0] = tangents_out[:, 0] = self._separator
-        fill_cells(values, np.ascontiguousarray(run["value"]))
-        for cells, (rules, slopes) in zip((tangents_in, tangents_out), tangents, strict=True):
-            self._fill_tangents(cells, rules, slopes)
-        end[:, 0] = np.where(broken, self._ends[1][0], self._ends[0][0])
-        if end.shape[1] == 2:
-            end[:, 1] = np.where(broken, self._ends[1][1], self._ends[0][1])
-        return line.tobytes().translate(None, b"\0")
+        """Octets side by side; where one is not full there are NULs, which are taken out."""
+        broken = run["broken"] if self.flags else np.zeros(len(run), np.bool_)
+        # The end of the line has room in the octet of a word, but not in that of a number or behind a flag.
+        apart = bool(broken.any() or (run["rule_out"] == _FIXED).any())
+        columns = [
+            *spelled(np.ascontiguousarray(run["time"]), self._indent),
+            *spelled(np.ascontiguousarray(run["value"]), self._separator),
+            *self._tangents(self._words, run["rule_in"], run["slope_in"]),
+            *self._tangents(self._words if apart else self._last_words, run["rule_out"], run["slope_out"]),
+            *([self._ends[broken.view(np.uint8)]] if apart else []),
+        ]
+        return np.array(columns, np.dtype("<u8")).T.tobytes().translate(None, b"\0")
 
-    def _fill_tangents(self, cells: Cells, rules: NDArray[np.uint8], slopes: NDArray[np.float64]) -> None:
-        cells[:, 1] = self._words[:, 0][rules]
-        cells[:, 2] = self._words[:, 1][rules]
+    def _tangents(self, words: Octets, rules: NDArray[np.uint8], slopes: NDArray[np.float64]) -> list[Octets]:
+        columns = [words.take(rules, mode="clip")]
         fixed = np.flatnonzero(rules == _FIXED)
         if len(fixed):
-            numbers = np.zeros((len(fixed), CELL), np.uint32)
-            numbers[:, 0] = self._separator
-            fill_cells(numbers, slopes[fixed])
-            cells[fixed] = numbers
-
-
-def _quads(text: str, count: int) -> Cells:
-    return np.frombuffer(text.encode("ascii").ljust(4 * count, b"\0"), np.uint32)
+            numbers = spelled(slopes[fixed], self._separator)
+            columns += [np.zeros(len(rules), np.uint64) for _ in numbers[1:]]
+            for column, number in zip(columns, numbers, strict=True):
+                column[fixed] = number
+        return columns

@@ -1,5 +1,7 @@
 """Numbers by the million: the same text as repr, the same double as float, for each one of them."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +11,8 @@ from numpy.typing import NDArray
 from model.channel import Channel
 from model.clip import Clip
 from model.formats import read_bytes, write_bytes
-from model.formats.decimals import CELL, fill_cells, quotients
+from model.formats.decimals import quotients, shortest_digits
+from model.formats.spelling import MOST_BEFORE, spelled
 from model.keyframe import TangentRule, make_run
 
 RANDOM = np.random.default_rng(20)
@@ -25,25 +28,39 @@ SETS = {
     "short in binary": RANDOM.integers(1, 1 << 40, 20_000) / 2.0 ** RANDOM.integers(0, 50, 20_000),
     "above 9": RANDOM.uniform(9, 10, 20_000),
     "powers of two": 2.0 ** np.arange(-60, 80),
+    "beside powers of two": np.concatenate(
+        [power + np.spacing(power) * np.arange(-20, 21) for power in 2.0 ** np.arange(-20, 60)]
+    ),
     "zeros": np.array([0.0, -0.0, 1.0, -1.0, 5e-324, 1.7976931348623157e308]),
     "beside round ones": np.concatenate([NEAR + k * np.spacing(NEAR) for k in range(-9, 10)]),
 }
 
 
-def texts(numbers: NDArray[np.float64]) -> list[str]:
-    cells = np.zeros((len(numbers), CELL), np.uint32)
-    fill_cells(cells, numbers)
-    return [row.tobytes().replace(b"\0", b"").decode() for row in cells]
+BEFORE = [b" ", b" " * MOST_BEFORE]
 
 
+def texts(numbers: NDArray[np.float64], before: bytes) -> list[str]:
+    columns = np.array(spelled(numbers, before))
+    return [row.tobytes().replace(b"\0", b"").decode() for row in columns.T]
+
+
+@pytest.mark.parametrize("before", BEFORE, ids=len)
 @pytest.mark.parametrize("numbers", SETS.values(), ids=SETS.keys())
-def test_the_text_of_a_number_is_its_repr(numbers: NDArray[np.float64]) -> None:
-    assert texts(numbers) == list(map(repr, numbers.tolist()))
+def test_the_text_of_a_number_is_its_repr(numbers: NDArray[np.float64], before: bytes) -> None:
+    assert texts(numbers, before) == [before.decode() + repr(number) for number in numbers.tolist()]
+    assert texts(-numbers, before) == [before.decode() + repr(-number) for number in numbers.tolist()]
 
 
-@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20))
-def test_the_text_of_any_number_is_its_repr(numbers: list[float]) -> None:
-    assert texts(np.array(numbers)) == list(map(repr, numbers))
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20), st.sampled_from(BEFORE))
+def test_the_text_of_any_number_is_its_repr(numbers: list[float], before: bytes) -> None:
+    assert texts(np.array(numbers), before) == [before.decode() + repr(number) for number in numbers]
+
+
+def test_few_numbers_are_spelled_one_by_one() -> None:
+    easy = np.concatenate([numbers[(np.abs(numbers) >= 1e-4) & (np.abs(numbers) < 1e8)] for numbers in SETS.values()])
+    places = 16 - np.floor(np.log10(np.abs(easy))).astype(np.int64)
+    _, certain = shortest_digits(np.abs(easy), places)
+    assert certain.mean() > 0.99
 
 
 def read_as_values(words: list[str]) -> list[float]:
@@ -87,12 +104,23 @@ def test_decimals_half_way_between_two_doubles_are_rounded_right() -> None:
 
 
 def test_a_division_of_integers_is_certain_nearly_everywhere_and_then_right() -> None:
-    digits = RANDOM.integers(1, 10**18, 20_000)
-    places = RANDOM.integers(0, 19, 20_000)
+    digits = RANDOM.integers(0, 10**18, 20_000) // 10 ** RANDOM.integers(0, 19, 20_000)
+    places = RANDOM.integers(0, 23, 20_000)
     values, certain = quotients(digits, places)
-    right = [int(d) / 10 ** int(p) for d, p in zip(digits, places, strict=True)]
-    assert values[certain].tolist() == np.array(right)[certain].tolist()
-    assert certain.mean() > 0.98
+    right = np.array([int(d) / 10 ** int(p) for d, p in zip(digits, places, strict=True)])
+    assert values[certain].tolist() == right[certain].tolist()
+    assert certain[right < 2.0**52].mean() > 0.99
+
+
+def test_a_division_near_a_power_of_two_is_right_where_it_is_certain() -> None:
+    powers = np.repeat(2.0 ** np.arange(-20, 28), 1000)
+    places = np.minimum(17 - np.floor(np.log10(powers)).astype(np.int64), 22)
+    digits = [int(Fraction(power) * 10 ** int(p)) for power, p in zip(powers, places, strict=True)]
+    digits = np.array(digits) + np.tile(np.arange(-500, 500) // 4, 48)
+    values, certain = quotients(digits, places)
+    right = np.array([int(d) / 10 ** int(p) for d, p in zip(digits, places, strict=True)])
+    assert values[certain].tolist() == right[certain].tolist()
+    assert certain.mean() > 0.6
 
 
 @pytest.mark.parametrize("format_name", ["anim", "hermite"])
