@@ -32,15 +32,15 @@ def floor_divide(numbers: Integers, divisor: int) -> Integers:
 def quotients(digits: Integers, places: Integers) -> tuple[Floats, Bools]:
     """The doubles nearest to digits / 10**places, and where that is certain: nearly everywhere below 2**52.
 
-    *digits* are 0 to 10**18, *places* 0 to 22.
+    *digits* are 0 to 10**18, *places* 0 to 22; the result for any other is some number.
     """
-    result = digits.astype(np.float64) / POWERS[places]
+    result = digits.astype(np.float64) / POWERS.take(places, mode="clip")
     if not len(digits) or int(digits.max()) <= 1 << 53:
         return result, np.ones(len(digits), np.bool_)  # exact by exact: rounded once
     bits = result.view(np.int64)
     mantissas = bits & _MANTISSA | _HIDDEN
     shifts = _SCALE - places - (bits >> 52)
-    halves = _FIVES[places]
+    halves = _FIVES.take(places, mode="clip")
     wrong = (digits << shifts) - mantissas * halves
     halves >>= _ONE
     nonzero = digits != 0
@@ -67,11 +67,11 @@ def shortest_digits(sizes: Floats, places: Integers) -> tuple[Integers, Bools]:
     correction = (rest + half) >> shifts
     nearest += correction
     rest -= correction << shifts
-    # Of 15 digits at most one decimal is so near, of 16 there may be three, and repr takes the nearest.
+    # Of 15 digits at most one decimal is so near, of 16 there may be three, and repr takes the nearest. Below a power of
+    # two doubles lie twice as dense, but in this range all powers of two have less than 15 digits.
     to15 = floor_divide(nearest + 50, 100) * 100 - nearest
-    wrong = (to15 << shifts) - rest
-    reads15 = np.abs(wrong) <= halves
-    certain = (mantissas != _HIDDEN) | (wrong == 0)  # below a power of two doubles lie twice as dense
+    reads15 = np.abs((to15 << shifts) - rest) <= halves
+    certain = np.ones(len(sizes), np.bool_)
     if reads15.all():
         digits = nearest + to15
     else:
@@ -79,6 +79,6 @@ def shortest_digits(sizes: Floats, places: Integers) -> tuple[Integers, Bools]:
         to16 = 10 * ((2 * unit + (rest > 0)) > 10) - unit
         reads16 = np.abs((to16 << shifts) - rest) <= halves
         tie = reads16 & (unit == 5) & (rest == 0) | ~reads16 & (rest == -half)
-        certain &= reads15 | ~tie
+        certain = reads15 | ~tie
         digits = nearest + to15 * reads15 + to16 * (reads16 & ~reads15)
     return digits, certain & ((digits - _SMALLEST).view(np.uint64) < _NUMBER)

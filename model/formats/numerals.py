@@ -5,6 +5,7 @@ slow way, which takes one word after the other and knows what to say about a wro
 """
 
 import re
+from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -16,20 +17,21 @@ from model.formats.error import MAX_TOKEN_BYTES
 type Octets = NDArray[np.uint64]
 
 NUMBER: Final = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
-_PAD: Final = 32  # bytes before and behind a piece, so that eight may be taken anywhere
+_PAD: Final = 32  # bytes before and behind a piece, so that those before a word may be taken anywhere
 _DOT: Final = ord(".")
 _MINUS: Final = ord("-")
 _INTEGER_POWERS: Final = 10 ** np.arange(19, dtype=np.int64)
 _MOST_PLACES: Final = len(POWERS) - 1
+_MOST_DIGITS: Final = 18  # in an integer of 64 bits
 
 
-def _octet(text: bytes) -> int:
-    return int.from_bytes(text.ljust(8, b"\0"), "little")
+def _octet(text: bytes) -> np.uint64:
+    """Up to eight bytes as the last ones of an octet."""
+    return np.uint64(int.from_bytes(text.rjust(8, b"\0"), "little"))
 
 
-_ZEROS: Final = np.uint64(_octet(b"00000000"))
-# The first k, and the last k, of eight bytes.
-_FIRST: Final = np.array([(1 << 8 * k) - 1 for k in range(9)], np.uint64)
+_ZEROS: Final = _octet(b"00000000")
+# The last k of eight bytes.
 _LAST: Final = np.array([(1 << 64) - (1 << 8 * (8 - k)) for k in range(9)], np.uint64)
 
 
@@ -55,50 +57,63 @@ class _Words:
     """The words of a piece of text, cut at blanks and at points, so that a number is one or two of them."""
 
     def __init__(self, text: bytes) -> None:
-        padded = b"".join((b" " * _PAD, text, b" " * _PAD))
+        padded = b"".join((b" " * _PAD, text, b" " * (_PAD + -len(text) % 8)))
         self.padded = padded
         self.bytes = np.frombuffer(padded, np.uint8)
-        self.octets: Octets = np.ndarray((len(padded) - 7,), np.dtype("<u8"), padded, strides=(1,))
-        apart = self.bytes == _DOT
-        for blank in b" \t\n\r":
-            apart |= self.bytes == blank
+        self.octets = np.frombuffer(padded, np.dtype("<u8"))
+        points = self.bytes == _DOT
+        apart = points | (self.bytes == ord(" "))
+        apart |= self.bytes - np.uint8(ord("\t")) <= ord("\r") - ord("\t")
         edges = np.flatnonzero(apart[1:] != apart[:-1]) + 1
         self.starts: Integers = edges[0::2]
         self.ends: Integers = edges[1::2]
-        after_point = self.bytes[self.starts - 1] == _DOT
-        # continues[k]: word k is what stands behind the point of word k - 1; one more at the end for the last word.
-        self.continues = np.zeros(len(self.starts) + 1, np.bool_)
-        self.continues[1:-1] = after_point[1:] & (self.starts[1:] - self.ends[:-1] == 1)
-        before_point = self.bytes[self.ends] == _DOT
+        self.before_point: Bools = self.bytes[self.ends] == _DOT
+        # Whether the word behind is what stands behind the point of this one.
+        self.goes_on = self.before_point.copy()
+        self.goes_on[:-1] &= self.starts[1:] - self.ends[:-1] == 1
+        self.goes_on[-1:] = False
         self.odd = bool(
-            np.count_nonzero(self.bytes == _DOT) != np.count_nonzero(before_point)  # .5 or a point alone
-            or (before_point & self.continues[:-1]).any()  # 1.2.3
-            or (self.ends - self.starts > MAX_TOKEN_BYTES).any()
+            np.count_nonzero(points) != np.count_nonzero(self.before_point)  # .5 or a point alone
+            or (self.before_point[1:] & self.goes_on[:-1]).any()  # 1.2.3
+            or b"\v" in text  # between the blanks, but none
+            or b"\f" in text
         )
 
-    def first_eight(self, words: Integers) -> Octets:
-        """The bytes of each word as one number, 0 for words longer than eight or with a point behind."""
-        starts = self.starts[words]
-        lengths = self.ends[words] - starts
-        octets = self.octets[starts] & _FIRST[np.minimum(lengths, 8)]
-        return np.where((lengths <= 8) & (self.bytes[self.ends[words]] != _DOT), octets, np.uint64(0))
+    def heads(self) -> Integers:
+        """The words that do not go on with a number."""
+        return np.flatnonzero(np.concatenate([[True], ~self.goes_on[:-1]])[: len(self.starts)])
+
+    def octets_before(self, ends: Integers, count: int) -> list[Octets]:
+        """The eight bytes before each of *ends*, the eight before those, and so on."""
+        places = ends >> 3
+        # Octets are read where they lie in the text's own rows of eight: two of them hold what is between.
+        shifts = (ends.view(np.uint64) & np.uint64(7)) << np.uint64(3)
+        others = np.uint64(64) - shifts
+        octets = [self.octets[places - k] for k in range(count + 1)]
+        return [behind << others | before >> shifts for behind, before in pairwise(octets)]
+
+    def octets_of(self, words: Integers) -> Octets:
+        """The bytes of each word, NUL before them; 0 for words longer than eight or with a point behind."""
+        ends = self.ends[words]
+        lengths = ends - self.starts[words]
+        octets = self.octets_before(ends, 1)[0] & _LAST.take(lengths, mode="clip")
+        return octets * ((lengths <= 8) & ~self.before_point[words])
 
     def numbers(self, words: Integers) -> Floats | None:
         """The numbers that begin with these words; None if one of them is no number."""
-        starts, ends = self.starts[words], self.ends[words]
+        starts, points, goes_on = self.starts[words], self.ends[words], self.goes_on[words]
         minus = self.bytes[starts] == _MINUS
-        lengths = ends - starts - minus
-        whole, plain = self._digits(ends, lengths)
-        values = whole.astype(np.int64)
-        has_places = self.continues[words + 1]
+        lengths = points - starts - minus
+        values, spoilt = _digits(self.octets_before(points, 1)[0], lengths)
+        plain = (lengths >= 1) & (lengths <= 8)
         places = np.zeros(len(words), np.int64)
-        if has_places.any():
-            behind = np.minimum(words + 1, len(self.starts) - 1)
-            places = np.where(has_places, self.ends[behind] - self.starts[behind], 0)
-            values, fits = self._with_places(values, lengths, self.ends[behind], places)
-            plain &= fits
-        result, certain = quotients(values, np.minimum(places, _MOST_PLACES))
-        result = np.where(minus, -result, result)
+        if goes_on.any():
+            ends = self.ends[words + goes_on]
+            places = ends - points - goes_on
+            values, plain = self._with_places(values, lengths, ends, places, plain, spoilt)
+        plain &= spoilt & np.uint64(0x8080808080808080) == 0
+        result, certain = quotients(values, places)
+        result.view(np.uint64)[:] |= minus.astype(np.uint64) << np.uint64(63)
         for i in np.flatnonzero(~(plain & certain)).tolist():
             number = self._number(int(words[i]))
             if number is None:
@@ -107,37 +122,42 @@ class _Words:
         return result
 
     def _with_places(
-        self, wholes: Integers, lengths: Integers, ends: Integers, places: Integers
+        self, wholes: Integers, lengths: Integers, ends: Integers, places: Integers, plain: Bools, spoilt: Octets
     ) -> tuple[Integers, Bools]:
         """The digits before and behind the point as one integer, and where that is all there is and fits."""
-        last, plain = self._digits(ends, np.minimum(places, 8), fewest=0)
-        values = last.astype(np.int64)
-        if (places > 8).any():
-            middle, digits = self._digits(ends - 8, np.minimum(np.maximum(places - 8, 0), 8), fewest=0)
-            values += middle.astype(np.int64) * 10**8
-            plain &= digits
-        if (places > 16).any():
-            first, digits = self._digits(ends - 16, np.minimum(np.maximum(places - 16, 0), 8), fewest=0)
-            plain &= digits & (first < 100)
-            values += np.minimum(first, np.uint64(99)).astype(np.int64) * 10**16
-        plain &= (places <= _MOST_PLACES) & ((wholes == 0) | (lengths + places <= 18))
-        return values + wholes * _INTEGER_POWERS[np.minimum(places, 18 - np.minimum(lengths, 8))], plain
-
-    def _digits(self, ends: Integers, lengths: Integers, *, fewest: int = 1) -> tuple[Octets, Bools]:
-        """The integers that *lengths* digits before *ends* spell, and where they are *fewest* to 8 and all digits."""
-        octets = (self.octets[ends - 8] ^ _ZEROS) & _LAST[np.minimum(np.maximum(lengths, 0), 8)]
-        spread = octets + np.uint64(0x7676767676767676) | octets  # a byte above 9 sets its highest bit
-        plain = (spread & np.uint64(0x8080808080808080) == 0) & (lengths >= fewest) & (lengths <= 8)
-        # Pairs of digits, then of pairs, then of quads are added up in place, eight digits by three multiplications.
-        octets = octets * np.uint64(2561) >> np.uint64(8) & np.uint64(0x00FF00FF00FF00FF)
-        octets = octets * np.uint64(6553601) >> np.uint64(16) & np.uint64(0x0000FFFF0000FFFF)
-        octets = octets * np.uint64(42949672960001) >> np.uint64(32)
-        return octets, plain
+        last, middle = self.octets_before(ends, 2)
+        values, odd = _digits(last, places)
+        spoilt |= odd
+        more, odd = _digits(middle, places - 8)
+        spoilt |= odd
+        values += more * 10**8
+        many = np.flatnonzero(places > 16)
+        if len(many):
+            first, odd = _digits(self.octets_before(ends[many] - 16, 1)[0], places[many] - 16)
+            spoilt[many] |= odd
+            plain[many] &= first < 100
+            values[many] += first * 10**16
+        plain &= places <= _MOST_PLACES
+        plain &= (lengths + places <= _MOST_DIGITS) | (wholes == 0)
+        return values + wholes * _INTEGER_POWERS.take(places, mode="clip"), plain
 
     def _number(self, word: int) -> float | None:
-        end = int(self.ends[word + self.continues[word + 1]])
-        text = self.padded[int(self.starts[word]) : end + (self.padded[end] == _DOT)]
+        start, end = int(self.starts[word]), int(self.ends[word + self.goes_on[word]])
+        if end - start > MAX_TOKEN_BYTES:
+            return None
+        text = self.padded[start : end + (self.padded[end] == _DOT)]
         return float(text) if NUMBER.match(text) else None
+
+
+def _digits(octets: Octets, lengths: Integers) -> tuple[Integers, Octets]:
+    """The integers that the last *lengths* bytes spell; a high bit is set in the other octet where one is no digit."""
+    octets = (octets ^ _ZEROS) & _LAST.take(lengths, mode="clip")
+    spoilt = octets + np.uint64(0x7676767676767676) | octets  # a byte above 9 sets its highest bit
+    # Pairs of digits, then of pairs, then of quads are added up in place, eight digits by three multiplications.
+    octets = octets * np.uint64(2561) >> np.uint64(8) & np.uint64(0x00FF00FF00FF00FF)
+    octets = octets * np.uint64(6553601) >> np.uint64(16) & np.uint64(0x0000FFFF0000FFFF)
+    octets = octets * np.uint64(42949672960001) >> np.uint64(32)
+    return octets.view(np.int64), spoilt
 
 
 def columns_of(
@@ -148,25 +168,27 @@ def columns_of(
     *flag* is a word that may follow a key, empty if none may.
     """
     words = _Words(text)
-    whole = np.flatnonzero(~words.continues[:-1])
-    broken: Bools | None = None
+    if words.odd:
+        return None
+    heads = words.heads()
+    before: Integers | None = None
     if flag and flag in text:
-        is_flag = words.first_eight(whole) == _octet(flag)
-        before = np.flatnonzero(is_flag) - np.arange(np.count_nonzero(is_flag))
-        whole = whole[~is_flag]
+        perhaps = np.flatnonzero(words.bytes[words.starts[heads]] == flag[0])
+        flags = perhaps[words.octets_of(heads[perhaps]) == _octet(flag)]
+        before = flags - np.arange(len(flags))
         if (before % 4).any() or (before == 0).any() or (np.diff(before) == 0).any():
             return None
-        broken = np.zeros(len(whole) // 4, np.bool_)
-        broken[before // 4 - 1] = True
-    if words.odd or len(whole) % 4:
+        heads = np.delete(heads, flags)
+    if len(heads) % 4:
         return None
-    columns = whole.reshape(-1, 4)
-    if broken is None:
-        broken = np.zeros(len(columns), np.bool_)
-    times = words.numbers(columns[:, 0])
-    values = words.numbers(columns[:, 1])
-    tangents_in = _tangents(words, columns[:, 2], words_in, fixed)
-    tangents_out = _tangents(words, columns[:, 3], words_out, fixed)
+    columns = np.ascontiguousarray(heads.reshape(-1, 4).T)
+    broken = np.zeros(columns.shape[1], np.bool_)
+    if before is not None:
+        broken[before // 4 - 1] = True
+    times = words.numbers(columns[0])
+    values = words.numbers(columns[1])
+    tangents_in = _tangents(words, columns[2], words_in, fixed)
+    tangents_out = _tangents(words, columns[3], words_out, fixed)
     if times is None or values is None or tangents_in is None or tangents_out is None:
         return None
     found = Columns(times, values, *tangents_in, *tangents_out, broken)
@@ -176,10 +198,10 @@ def columns_of(
 def _tangents(
     words: _Words, column: Integers, known: dict[bytes, int], fixed: int
 ) -> tuple[NDArray[np.uint8], Floats] | None:
-    octets = words.first_eight(column)
+    octets = words.octets_of(column)
     rules = np.full(len(column), fixed, np.uint8)
     for word, rule in known.items():
-        rules[octets == _octet(word)] = rule
+        rules += (octets == _octet(word)) * np.uint8((rule - fixed) % 256)  # at most one of them is met
     slopes = np.zeros(len(column))
     numbers = np.flatnonzero(rules == fixed)
     if len(numbers):

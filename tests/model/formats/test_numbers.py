@@ -56,6 +56,13 @@ def test_the_text_of_any_number_is_its_repr(numbers: list[float], before: bytes)
     assert texts(np.array(numbers), before) == [before.decode() + repr(number) for number in numbers]
 
 
+@pytest.mark.parametrize("before", BEFORE, ids=len)
+@pytest.mark.parametrize("whole", [0, 999, 9_999, 10_000, 999_999, 9_999_999, 10_000_000, 10_009_999, 99_999_999])
+def test_the_text_of_a_number_does_not_hang_on_its_neighbours(whole: int, before: bytes) -> None:
+    for number in (float(whole), whole + 0.5, -whole - 0.0625):
+        assert texts(np.array([number]), before) == [before.decode() + repr(number)]
+
+
 def test_few_numbers_are_spelled_one_by_one() -> None:
     easy = np.concatenate([numbers[(np.abs(numbers) >= 1e-4) & (np.abs(numbers) < 1e8)] for numbers in SETS.values()])
     places = 16 - np.floor(np.log10(np.abs(easy))).astype(np.int64)
