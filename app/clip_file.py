@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from model.clip import Clip
-from model.formats import Loss, clip_from, losses, losses_of, read_file, sniff
+from model.formats import FORMATS, Loss, clip_from, losses, losses_of, read_file, sniff
 from model.formats.content import Content
 from model.formats.error import MAX_FILE_BYTES
 from model.progress import Report, part_of, unheard
@@ -89,7 +89,8 @@ def save_clip(content: Content, path: str, format_name: str, leave: Leave, repor
 
     Raises SaveError, FormatError and what *report* raises; then, and in doubt, the file is as it was.
     """
-    lost = losses_of(content, format_name, path)
+    held = FORMATS[format_name].held(content)
+    lost = losses_of(content, format_name, path, held)
     if lost and lost != leave.losses:
         return Doubt(lost, overwrites_another=False)
     if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
@@ -102,7 +103,7 @@ def save_clip(content: Content, path: str, format_name: str, leave: Leave, repor
         found.append(Fingerprint(status.st_dev, status.st_ino, status.st_mtime_ns, status.st_size, digest_of(data)))
 
     try:
-        result = save_content(content, path, format_name, part_of(report, 0.05, 1.0), last_look)
+        result = save_content(held, path, format_name, part_of(report, 0.05, 1.0), last_look)
     except _OverwritesError:
         return Doubt(lost, overwrites_another=True)
     return Saved(result, lost, found[0])

@@ -14,6 +14,7 @@ from typing import Final, NamedTuple
 from model.clip import Clip
 from model.formats import FORMATS, FormatError, format_of_path, read_content, write_content
 from model.formats.content import Content, differences
+from model.formats.side_by_side import meanwhile
 from model.progress import Report, part_of, unheard
 
 type Verify = Callable[[bytes], None]
@@ -63,19 +64,21 @@ def save_clip(clip: Clip, path: str | os.PathLike[str], format_name: str | None 
     if format_name is None:
         known = ", ".join(row.extension for row in FORMATS.values())
         raise SaveError(os.fspath(path), f"the extension tells no format; one of {known} does")
-    return save_content(Content.of(clip), path, format_name)
+    return save_content(FORMATS[format_name].held(Content.of(clip)), path, format_name)
 
 
 def save_content(
-    content: Content,
+    wanted: Content,
     path: str | os.PathLike[str],
     format_name: str,
     report: Report = unheard,
     last_look: LastLook | None = None,
 ) -> SaveResult:
-    """The same of what a clip held. A CancelledError from *report* leaves the old file untouched too."""
+    """The same of what is left of a clip in the format, as its row says.
+
+    A CancelledError from *report* leaves the old file untouched too.
+    """
     name = os.fspath(path)
-    wanted = FORMATS[format_name].held(content)
     data = write_content(wanted, format_name, part_of(report, 0.0, 0.4))
 
     def verify(written: bytes) -> None:
@@ -91,10 +94,10 @@ def save_atomic(
 ) -> SaveResult:
     """Put *data* in the place of the file at *path*, or of the file that a link there leads to.
 
-    *verify* gets *data* once the disk has given back the same bytes, and raises if they are not right; *last_look* gets
-    them and what the new file is, at the last moment at which the old one is still in its place. Raises SaveError (and
-    whatever these two raise): then the old file is untouched. Mode, owner and attributes are kept as far as the system
-    allows.
+    *verify* gets *data* while the disk takes it, and raises if it is not right; what the disk gives back then must be
+    the same bytes. *last_look* gets them and what the new file is, at the last moment at which the old one is still in
+    its place. Raises SaveError (and whatever these two raise): then the old file is untouched. Mode, owner and
+    attributes are kept as far as the system allows.
     """
     name = os.fspath(path)
     try:
@@ -140,16 +143,19 @@ def _replace(
         try:
             _write_all(handle, data)
             notes = _keep_attributes(handle, target, status)
-            _sync(handle)  # a failed sync is final: a second one may report success for pages that are lost
+            # A failed sync is final: a second one may report success for pages that are lost.
+            if verify is None:
+                _sync(handle)
+            else:
+                with meanwhile(lambda: _sync(handle)):
+                    verify(data)
             same = _holds(handle, data)
             written = os.fstat(handle)
         finally:
             os.close(handle)
         if not same:
             raise OSError(errno.EIO, "the disk gave back other bytes than were written")
-        if verify is not None:
-            verify(data)  # what has just been read back
-        if _version(os.stat(temp)) != _version(written) and not _still_holds(temp, data):  # checking takes its time
+        if _version(os.stat(temp)) != _version(written) and not _still_holds(temp, data):
             raise OSError(errno.EIO, "the new file was changed by something else before it was in its place")
         if last_look is not None:
             last_look(data, written)

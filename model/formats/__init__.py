@@ -36,7 +36,10 @@ type Skeleton = str | os.PathLike[str] | None
 
 
 class Format(NamedTuple):
-    """One row a format: what people call it, how it is told, read and written, and what is left of a clip in it."""
+    """One row a format: what people call it, how it is told, read and written, and what is left of a clip in it.
+
+    Only what is left can be written.
+    """
 
     label: str
     extension: str
@@ -115,15 +118,15 @@ def read_content(
 
 def write_bytes(clip: Clip, format_name: str) -> bytes:
     """*clip* as a file of this format; what the format cannot hold is left out. Raises FormatError."""
-    return write_content(Content.of(clip), format_name)
+    return write_content(FORMATS[format_name].held(Content.of(clip)), format_name)
 
 
-def write_content(content: Content, format_name: str, report: Report = unheard) -> bytes:
-    """The same of what a clip held."""
+def write_content(held: Content, format_name: str, report: Report = unheard) -> bytes:
+    """A file of this format with what is left in it of a clip, as the row of the format says. Raises FormatError."""
     try:
-        return FORMATS[format_name].write(content, report)
+        return FORMATS[format_name].write(held, report)
     except TextError as fault:
-        raise FormatError(content.title or "the clip", 0, 0, fault.problem, fault.remedy) from None
+        raise FormatError(held.title or "the clip", 0, 0, fault.problem, fault.remedy) from None
 
 
 def losses(clip: Clip, format_name: str, path: str | os.PathLike[str] | None = None) -> list[Loss]:
@@ -134,9 +137,11 @@ def losses(clip: Clip, format_name: str, path: str | os.PathLike[str] | None = N
     return losses_of(Content.of(clip), format_name, path)
 
 
-def losses_of(content: Content, format_name: str, path: str | os.PathLike[str] | None = None) -> list[Loss]:
-    """The same of what a clip held."""
-    held = FORMATS[format_name].held(content)
+def losses_of(
+    content: Content, format_name: str, path: str | os.PathLike[str] | None = None, held: Content | None = None
+) -> list[Loss]:
+    """The same of what a clip held; *held* is what is left of it in the format, if that has been worked out."""
+    held = held or FORMATS[format_name].held(content)
     if path is not None and format_name == "anim":
         held = _named_by_skeleton(held, os.fspath(path), None, beside=True)
     return differences(content, held)

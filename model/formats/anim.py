@@ -154,8 +154,7 @@ def _held_runs(runs: list[Run]) -> list[Run]:
 
 
 def write(content: Content, report: Report = unheard) -> bytes:
-    """The text of *content*, of which only what ``held`` leaves is in it."""
-    content = held(content)
+    """The text of *content*, which must be what ``held`` leaves."""
     head = f"animation {{\n  range {content.start!r} {content.end!r}\n  numchannels {len(content.channels)}\n"
     parts = [head.encode()]
     keys = KeyWriter(_WRITTEN, "      ", "\t", flags=False)

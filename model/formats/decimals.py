@@ -67,8 +67,8 @@ def shortest_digits(sizes: Floats, places: Integers) -> tuple[Integers, Bools]:
     correction = (rest + half) >> shifts
     nearest += correction
     rest -= correction << shifts
-    # Of 15 digits at most one decimal is so near, of 16 there may be three, and repr takes the nearest. Below a power of
-    # two doubles lie twice as dense, but in this range all powers of two have less than 15 digits.
+    # Of 15 digits at most one decimal is so near, of 16 there may be three, and repr takes the nearest.
+    # Below a power of two doubles lie twice as dense, but in this range all powers of two have less than 15 digits.
     to15 = floor_divide(nearest + 50, 100) * 100 - nearest
     reads15 = np.abs((to15 << shifts) - rest) <= halves
     certain = np.ones(len(sizes), np.bool_)

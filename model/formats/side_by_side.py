@@ -1,7 +1,8 @@
 """Work in many pieces done by two threads: numpy lets go of Python's lock in each of its long operations."""
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 from model.progress import Report, unheard
 
@@ -41,3 +42,27 @@ def side_by_side[Item, Result](
     if errors:
         raise errors[0]
     return [results[number] for number in range(len(items))]
+
+
+@contextmanager
+def meanwhile(work: Callable[[], None]) -> Iterator[None]:
+    """Do *work* on another thread while this one does what stands in the block.
+
+    It is over when the block is left, and its error is raised then, unless the block has raised one of its own.
+    """
+    errors: list[BaseException] = []
+
+    def do() -> None:
+        try:
+            work()
+        except BaseException as error:
+            errors.append(error)
+
+    helper = threading.Thread(target=do, name="side by side", daemon=True)
+    helper.start()
+    try:
+        yield
+    finally:
+        helper.join()
+    if errors:
+        raise errors[0]

@@ -106,8 +106,27 @@ def test_a_new_file_that_is_damaged_before_it_is_in_its_place_does_not_get_there
         temp = next(file for file in path.parent.iterdir() if file != path)
         os.truncate(temp, 10)
 
-    with pytest.raises(SaveError, match="changed by something else"):
+    with pytest.raises(SaveError, match="other bytes than were written"):
         saved_while(path, monkeypatch, damage)
+    assert path.read_bytes() == CLIP
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_new_file_that_is_damaged_once_it_has_been_read_back_does_not_get_into_its_place(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = os.close
+
+    def damage_and_close(handle: int) -> None:
+        os.truncate(handle, 10)
+        monkeypatch.setattr(os, "close", real)
+        real(handle)
+
+    def from_now_on() -> None:
+        monkeypatch.setattr(os, "close", damage_and_close)
+
+    with pytest.raises(SaveError, match="changed by something else"):
+        saved_while(path, monkeypatch, from_now_on)
     assert path.read_bytes() == CLIP
     assert list(path.parent.iterdir()) == [path]
 

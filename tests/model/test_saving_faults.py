@@ -5,6 +5,8 @@ import os
 import signal
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -150,6 +152,53 @@ def test_a_check_that_fails_keeps_the_old_version(target: Path, error: BaseExcep
         save_atomic(target, NEW, verify=verify)
     assert target.read_bytes() == OLD
     assert others(target) == []
+
+
+@pytest.mark.parametrize("check", ["quick", "slow", "failing"])
+def test_a_disk_that_fails_while_the_bytes_are_checked_keeps_the_old_version(
+    target: Path, monkeypatch: pytest.MonkeyPatch, check: str
+) -> None:
+    checked = threading.Event()
+
+    def fail(_handle: int) -> None:
+        assert check == "slow" or checked.wait(10)
+        raise OSError(errno.EIO, "Input/output error")
+
+    def verify(_data: bytes) -> None:
+        if check == "slow":
+            time.sleep(0.05)
+        checked.set()
+        if check == "failing":
+            raise SaveError("x", "not the clip")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(SaveError, match="not the clip" if check == "failing" else "Input/output error"):
+        save_atomic(target, NEW, verify=verify)
+    assert target.read_bytes() == OLD
+    assert others(target) == []
+    assert not [thread for thread in threading.enumerate() if thread.name == "side by side"]
+
+
+def test_the_new_file_is_read_back_when_the_disk_has_it_and_it_has_been_checked(
+    target: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    events = []
+
+    def noted(name: str) -> Callable[..., Any]:
+        real = getattr(os, name)
+
+        def call(*arguments: Any) -> Any:
+            result = real(*arguments)
+            events.append(name)
+            return result
+
+        return call
+
+    for name in ("fsync", "read", "replace"):
+        monkeypatch.setattr(os, name, noted(name))
+    save_atomic(target, NEW, verify=lambda data: events.append("checked"))
+    assert sorted(events[:2]) == ["checked", "fsync"]
+    assert events[2:] == ["read", "read", "replace", "fsync"]
 
 
 def test_a_killed_save_leaves_a_whole_version_no_older_than_what_was_confirmed(tmp_path: Path) -> None:
