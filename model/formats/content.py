@@ -10,11 +10,15 @@ from numpy.typing import NDArray
 from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
+from model.formats.side_by_side import side_by_side
 from model.keyframe import KEY_DTYPE, Run, TangentRule
 from model.labels import counted
 from model.progress import Report, unheard
 
+type Place = tuple[int, int]  # of a kind of loss among all that there are
+
 _FIXED = TangentRule.FIXED
+_KEYS: Final = 16384  # compared at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,12 +129,13 @@ def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[Loss]:
     names = [name for name, _, _ in same]
     ends = np.cumsum([len(a) for _, a, _ in same])
     wanted, held = joined([a for _, a, _ in same]), joined([b for _, _, b in same])
-    for kind, lost in _kinds_of_loss(wanted, held):
-        where = np.flatnonzero(lost)
-        if len(where):
-            channels = np.flatnonzero(np.diff(np.searchsorted(where, ends), prepend=0)).tolist()
-            keys = f"{counted(len(where), 'key')} of {_these([names[i] for i in channels])}"
-            yield Loss(kind.what, f"{keys} {kind.one if len(where) == 1 else kind.many}", kind.in_motion)
+    firsts = range(0, len(wanted), _KEYS)
+    found = side_by_side(lambda first: _lost_among(wanted, held, first), firsts)
+    for place, kind in sorted({(place, kind) for losses in found for place, kind in losses}):
+        where = np.concatenate([losses[place, kind] for losses in found if (place, kind) in losses])
+        channels = np.flatnonzero(np.diff(np.searchsorted(where, ends), prepend=0)).tolist()
+        keys = f"{counted(len(where), 'key')} of {_these([names[i] for i in channels])}"
+        yield Loss(kind.what, f"{keys} {kind.one if len(where) == 1 else kind.many}", kind.in_motion)
 
 
 class _Kind(NamedTuple):
@@ -142,6 +147,12 @@ class _Kind(NamedTuple):
     in_motion: bool
 
 
+def _lost_among(wanted: Run, held: Run, first: int) -> dict[tuple[Place, _Kind], NDArray[np.int64]]:
+    """The numbers of those keys that have lost something, by what; of so few that they stay in a processor's cache."""
+    kinds = _kinds_of_loss(wanted[first : first + _KEYS], held[first : first + _KEYS])
+    return {(place, kind): np.flatnonzero(lost) + first for place, kind, lost in kinds if lost.any()}
+
+
 def joined(runs: Sequence[Run]) -> Run:
     """One run after the other, as bytes since numpy copies keys field by field; a run alone is not copied."""
     if len(runs) == 1:
@@ -151,23 +162,26 @@ def joined(runs: Sequence[Run]) -> Run:
     )
 
 
-def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[_Kind, NDArray[np.bool_]]]:
-    """What may have become of a key, and the keys of which it has."""
+def _kinds_of_loss(a: Run, b: Run) -> Iterator[tuple[Place, _Kind, NDArray[np.bool_]]]:
+    """What may have become of a key, its place among all that may, and the keys of which it has."""
     moved = (_bits(a["time"]) != _bits(b["time"])) | (_bits(a["value"]) != _bits(b["value"]))
-    yield _Kind("the place of keys", "is moved", "are moved", in_motion=True), moved
-    for side in ("in", "out"):
+    yield (0, 0), _Kind("the place of keys", "is moved", "are moved", in_motion=True), moved
+    for side_number, side in enumerate(("in", "out"), 1):
         rules, others = (np.ascontiguousarray(run[f"rule_{side}"]) for run in (a, b))
         changed = rules != others
-        pairs = (rules << 4) + others
-        for pair in np.flatnonzero(np.bincount(pairs[changed])).tolist():
-            rule, other = divmod(pair, 16)
-            yield _rule_lost(TangentRule(rule), TangentRule(other), side), pairs == pair
+        if changed.any():
+            pairs = (rules << 4) + others
+            for pair in np.flatnonzero(np.bincount(pairs[changed])).tolist():
+                rule, other = divmod(pair, 16)
+                yield (side_number, pair), _rule_lost(TangentRule(rule), TangentRule(other), side), pairs == pair
         slopes = _bits(a[f"slope_{side}"]) != _bits(b[f"slope_{side}"])
         slope = f"another slope on the {side} side"
-        yield _Kind("slopes", f"gets {slope}", f"get {slope}", in_motion=True), slopes & ~changed & (rules == _FIXED)
-    for mark, lost in (("broken", a["broken"] & ~b["broken"]), ("unified", b["broken"] & ~a["broken"])):
+        slopes &= ~changed & (rules == _FIXED)
+        yield (side_number, 256), _Kind("slopes", f"gets {slope}", f"get {slope}", in_motion=True), slopes
+    marks = {"broken": a["broken"] & ~b["broken"], "unified": b["broken"] & ~a["broken"]}
+    for number, (mark, lost) in enumerate(marks.items()):
         kind = f"no longer marked as {mark}"
-        yield _Kind(f"{mark} marks", f"is {kind}", f"are {kind}", in_motion=False), lost
+        yield (3, number), _Kind(f"{mark} marks", f"is {kind}", f"are {kind}", in_motion=False), lost
 
 
 def _rule_lost(rule: TangentRule, other: TangentRule, side: str) -> _Kind:

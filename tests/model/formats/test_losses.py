@@ -1,13 +1,14 @@
 """What a format cannot hold is said before it is lost, and only that."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 
 from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
-from model.formats import FORMATS, losses, read_bytes, write_bytes
-from model.formats.content import Content, differences
+from model.formats import FORMATS, content, losses, read_bytes, write_bytes
+from model.formats.content import ChannelContent, Content, differences
 from model.keyframe import TangentRule, make_run
 from tests.model.formats.clips import clips, facts
 
@@ -84,6 +85,22 @@ def test_a_clip_of_other_keys_or_channels_is_different() -> None:
     assert [str(loss) for loss in differences(Content.of(clip), Content.of(Clip()))] == [
         "there are 0 channels instead of 1"
     ]
+
+
+def test_many_keys_lose_the_same_however_they_are_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    random = np.random.default_rng(4)
+    slopes = random.normal(size=(2, 60))
+    rules = [random.choice(TangentRule, 60) for _ in "io"]
+    run = make_run(range(60), slopes[0], *slopes, *rules, broken=random.random(60) < 0.5)
+    other = run.copy()
+    other["rule_in"][::2], other["slope_out"][::3], other["value"][::11] = TangentRule.FLAT, 1, 0
+    runs = [(keys[:20], keys[20:23], keys[23:]) for keys in (run, other)]
+    a, b = (Content(0, 1, [ChannelContent(f"c{i}", r) for i, r in enumerate(three)]) for three in runs)
+    whole = differences(a, b)
+    assert len(whole) > 6
+    for size in (1, 2, 7, 59):
+        monkeypatch.setattr(content, "_KEYS", size)
+        assert differences(a, b) == whole
 
 
 @pytest.mark.parametrize("field", ["time", "value"])
