@@ -156,8 +156,9 @@ def _columns_word_by_word(text: bytes, words_in: Words, words_out: Words, flag: 
         rules_out, slopes_out = _tangents(words[3::4], words_out)
     except ValueError:
         return None
-    columns = Columns(times, values, rules_in, slopes_in, rules_out, slopes_out, broken)
-    return columns if columns.finite() else None
+    # A text may spell a number that is too large for a double.
+    finite = all(bool(np.isfinite(column).all()) for column in (times, values, slopes_in, slopes_out))
+    return Columns(times, values, rules_in, slopes_in, rules_out, slopes_out, broken) if finite else None
 
 
 def _tangents(tokens: list[bytes], words: Words) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:

@@ -6,6 +6,7 @@ slow way, which takes one word after the other and knows what to say about a wro
 
 import re
 from itertools import pairwise
+from math import isfinite
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -46,12 +47,6 @@ class Columns(NamedTuple):
     slopes_out: Floats
     broken: Bools
 
-    def finite(self) -> bool:
-        """Whether all numbers are finite: a text may spell one that is too large for a double."""
-        return all(
-            bool(np.isfinite(column).all()) for column in (self.times, self.values, self.slopes_in, self.slopes_out)
-        )
-
 
 class _Words:
     """The words of a piece of text, cut at blanks and at points, so that a number is one or two of them."""
@@ -61,10 +56,14 @@ class _Words:
         self.padded = padded
         self.bytes = np.frombuffer(padded, np.uint8)
         self.octets = np.frombuffer(padded, np.dtype("<u8"))
-        points = self.bytes == _DOT
-        apart = points | (self.bytes == ord(" "))
-        apart |= self.bytes - np.uint8(ord("\t")) <= ord("\r") - ord("\t")
-        edges = np.flatnonzero(apart[1:] != apart[:-1]) + 1
+        # One more in front, so that an edge is numbered like the byte behind it.
+        apart = np.ones(len(padded) + 1, np.bool_)
+        here = apart[1:]
+        np.equal(self.bytes, _DOT, out=here)
+        points = np.count_nonzero(here)
+        here |= self.bytes == ord(" ")
+        here |= self.bytes - np.uint8(ord("\t")) <= ord("\r") - ord("\t")
+        edges = np.flatnonzero(here != apart[:-1])
         self.starts: Integers = edges[0::2]
         self.ends: Integers = edges[1::2]
         self.before_point: Bools = self.bytes[self.ends] == _DOT
@@ -73,7 +72,7 @@ class _Words:
         self.goes_on[:-1] &= self.starts[1:] - self.ends[:-1] == 1
         self.goes_on[-1:] = False
         self.odd = bool(
-            np.count_nonzero(points) != np.count_nonzero(self.before_point)  # .5 or a point alone
+            points != np.count_nonzero(self.before_point)  # .5 or a point alone
             or (self.before_point[1:] & self.goes_on[:-1]).any()  # 1.2.3
             or b"\v" in text  # between the blanks, but none
             or b"\f" in text
@@ -81,7 +80,8 @@ class _Words:
 
     def heads(self) -> Integers:
         """The words that do not go on with a number."""
-        return np.flatnonzero(np.concatenate([[True], ~self.goes_on[:-1]])[: len(self.starts)])
+        goes_on: Bools = np.concatenate([[False], self.goes_on])
+        return np.flatnonzero(~goes_on[:-1])
 
     def octets_before(self, ends: Integers, count: int) -> list[Octets]:
         """The eight bytes before each of *ends*, the eight before those, and so on."""
@@ -146,7 +146,10 @@ class _Words:
         if end - start > MAX_TOKEN_BYTES:
             return None
         text = self.padded[start : end + (self.padded[end] == _DOT)]
-        return float(text) if NUMBER.match(text) else None
+        if not NUMBER.match(text):
+            return None
+        number = float(text)
+        return number if isfinite(number) else None  # a text may spell one that is too large for a double
 
 
 def _digits(octets: Octets, lengths: Integers) -> tuple[Integers, Octets]:
@@ -191,8 +194,7 @@ def columns_of(
     tangents_out = _tangents(words, columns[3], words_out, fixed)
     if times is None or values is None or tangents_in is None or tangents_out is None:
         return None
-    found = Columns(times, values, *tangents_in, *tangents_out, broken)
-    return found if found.finite() else None
+    return Columns(times, values, *tangents_in, *tangents_out, broken)
 
 
 def _tangents(
@@ -201,7 +203,9 @@ def _tangents(
     octets = words.octets_of(column)
     rules = np.full(len(column), fixed, np.uint8)
     for word, rule in known.items():
-        rules += (octets == _octet(word)) * np.uint8((rule - fixed) % 256)  # at most one of them is met
+        met = octets == _octet(word)
+        if met.any():
+            rules += met.view(np.uint8) * np.uint8((rule - fixed) % 256)  # at most one word is met
     slopes = np.zeros(len(column))
     numbers = np.flatnonzero(rules == fixed)
     if len(numbers):
