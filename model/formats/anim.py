@@ -32,6 +32,7 @@ _WORDS: Final = {mode: word for word, mode in _MODES.items()}
 # What is left of each rule: the course knows neither a rule of no overshoot nor a held span.
 _HELD: Final = np.arange(max(TangentRule) + 1, dtype=np.uint8)
 _HELD[TangentRule.AUTO], _HELD[TangentRule.STEP] = TangentRule.FIXED, TangentRule.FLAT
+_NOT_HELD: Final = TangentRule.AUTO, TangentRule.STEP
 
 
 def read(data: bytes, report: Report = unheard) -> Content:
@@ -120,9 +121,11 @@ def _read_keys(scanner: Scanner) -> Run:
 
 def broken_of(run: Run) -> NDArray[np.bool_]:
     """Whether the tangents of each key turn apart, which the format does not say: other rules, or other slopes."""
-    rules_in, rules_out = run["rule_in"], run["rule_out"]
-    both_fixed = (rules_in == TangentRule.FIXED) & (rules_out == TangentRule.FIXED)
-    broken: NDArray[np.bool_] = (rules_in != rules_out) | (both_fixed & (run["slope_in"] != run["slope_out"]))
+    rules_in, rules_out = (np.ascontiguousarray(run[rules]) for rules in ("rule_in", "rule_out"))
+    broken: NDArray[np.bool_] = rules_in != rules_out
+    both_fixed = np.flatnonzero(~broken & (rules_in == TangentRule.FIXED))
+    if len(both_fixed):
+        broken[both_fixed] = run["slope_in"][both_fixed] != run["slope_out"][both_fixed]
     return broken
 
 
@@ -142,13 +145,13 @@ def _held_runs(runs: list[Run]) -> list[Run]:
     The runs themselves when all of it is held.
     """
     keys = joined(runs)
-    known = [_HELD[keys[rules]] for rules in ("rule_in", "rule_out")]
-    if all(np.array_equal(rules, keys[field]) for rules, field in zip(known, ("rule_in", "rule_out"), strict=True)):
-        broken = broken_of(keys)
-        if np.array_equal(broken, keys["broken"]):
-            return runs
+    rules_in, rules_out = (np.ascontiguousarray(keys[rules]) for rules in ("rule_in", "rule_out"))
+    lost = any(bool((rules == rule).any()) for rules in (rules_in, rules_out) for rule in _NOT_HELD)
+    if not lost and np.array_equal(broken_of(keys), keys["broken"]):
+        return runs
     keys = keys.copy() if len(runs) == 1 else keys
-    keys["rule_in"], keys["rule_out"] = known
+    if lost:
+        keys["rule_in"], keys["rule_out"] = _HELD[rules_in], _HELD[rules_out]
     keys["broken"] = broken_of(keys)
     return [keys[first:last] for first, last in pairwise(np.cumsum([0, *map(len, runs)]).tolist())]
 

@@ -76,7 +76,7 @@ def _plain_pieces(
     def read(span: tuple[int, int]) -> Run | None:
         if -1 in counts or sum(counts) > MAX_KEYS:
             return None
-        columns = columns_of(data[slice(*span)], words_in, words_out, _FIXED, flag)
+        columns = columns_of(memoryview(data)[slice(*span)], words_in, words_out, _FIXED, flag)
         counts.append(-1 if columns is None else len(columns.times))
         return None if columns is None else _run_of(columns)
 
@@ -106,7 +106,7 @@ def _piece(data: bytes, start: int, end: int, words_in: Words, words_out: Words,
     cut = end if end - start <= _PIECE else data.find(b"\n", start + _PIECE, end)
     cut = end if cut < 0 else cut
     if _SMALL < cut - start <= 4 * _PIECE:  # a longer line would take more memory than files may
-        piece = columns_of(data[start:cut], words_in, words_out, _FIXED, flag)
+        piece = columns_of(memoryview(data)[start:cut], words_in, words_out, _FIXED, flag)
         if piece is not None:
             return piece, cut
     if cut - start > _SMALL:

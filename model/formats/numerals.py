@@ -51,7 +51,7 @@ class Columns(NamedTuple):
 class _Words:
     """The words of a piece of text, cut at blanks and at points, so that a number is one or two of them."""
 
-    def __init__(self, text: bytes) -> None:
+    def __init__(self, text: memoryview) -> None:
         padded = b"".join((b" " * _PAD, text, b" " * (_PAD + -len(text) % 8)))
         self.padded = padded
         self.bytes = np.frombuffer(padded, np.uint8)
@@ -74,8 +74,8 @@ class _Words:
         self.odd = bool(
             points != np.count_nonzero(self.before_point)  # .5 or a point alone
             or (self.before_point[1:] & self.goes_on[:-1]).any()  # 1.2.3
-            or b"\v" in text  # between the blanks, but none
-            or b"\f" in text
+            or b"\v" in padded  # between the blanks, but none
+            or b"\f" in padded
         )
 
     def heads(self) -> Integers:
@@ -164,7 +164,7 @@ def _digits(octets: Octets, lengths: Integers) -> tuple[Integers, Octets]:
 
 
 def columns_of(
-    text: bytes, words_in: dict[bytes, int], words_out: dict[bytes, int], fixed: int, flag: bytes
+    text: memoryview, words_in: dict[bytes, int], words_out: dict[bytes, int], fixed: int, flag: bytes
 ) -> Columns | None:
     """The keys in *text*, which begins and ends between two keys; None if it is not as plain as it must be here.
 
@@ -175,7 +175,7 @@ def columns_of(
         return None
     heads = words.heads()
     before: Integers | None = None
-    if flag and flag in text:
+    if flag and flag in words.padded:
         perhaps = np.flatnonzero(words.bytes[words.starts[heads]] == flag[0])
         flags = perhaps[words.octets_of(heads[perhaps]) == _octet(flag)]
         before = flags - np.arange(len(flags))

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from model import formats
 from model.channel import Channel
 from model.clip import Clip
-from model.formats import FORMATS, FormatError, format_of_path, read_bytes, read_clip, sniff, write_bytes
+from model.formats import FORMATS, FormatError, format_of_path, native, read_bytes, read_clip, sniff, write_bytes
 from model.formats.foreign import FOREIGN_KINDS
 from model.keyframe import make_run
 
@@ -139,6 +140,30 @@ def test_a_file_beyond_the_budget_is_refused_before_it_is_read(tmp_path: Path) -
         file.write(b"animation {")
         file.truncate((256 << 20) + 1)
     assert "larger than 256 MiB" in refusal(path)
+
+
+@pytest.mark.parametrize("piece", [1, 7, 1 << 18])
+def test_a_file_of_too_many_lines_is_refused_and_none_with_one_less(
+    piece: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = b"hermite 1\nrange 0 1\n\n\n\nrate 30\nend\n"
+    monkeypatch.setattr(formats, "_PIECE", piece)
+    monkeypatch.setattr(formats, "MAX_LINES", data.count(b"\n"))
+    assert read_bytes(data, "x").end == 1
+    monkeypatch.setattr(formats, "MAX_LINES", data.count(b"\n") - 1)
+    with pytest.raises(FormatError, match="the file has more than 6 lines"):
+        read_bytes(data, "x")
+
+
+def test_a_file_of_too_many_channels_is_refused_before_they_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    clip = Clip([Channel(name, make_run([0, 1], 0)) for name in ("a", "b", "c")])
+    data = write_bytes(clip, "hermite")
+    monkeypatch.setattr(native, "MAX_CHANNELS", 3)
+    assert len(read_bytes(data, "x").channels) == 3
+    monkeypatch.setattr(native, "MAX_CHANNELS", 2)
+    with pytest.raises(FormatError, match="more than 2 channels") as caught:
+        read_bytes(data, "x")
+    assert caught.value.line == 1
 
 
 HEAD = b"animation { range 0 1 numchannels 1 channel { extrapolate constant constant keys 1 {"
