@@ -56,7 +56,26 @@ class Membership(NamedTuple):
         return Membership(self.after, self.before)
 
 
-type Change = Splice | Setting | Membership
+class Shift(NamedTuple):
+    """All keys of *channel*, *before*, move alike and stay in order: a splice whose other side is seldom asked for."""
+
+    channel: Channel
+    before: Run
+    d_time: float
+    d_value: float
+    moved: Callable[[], Run]  # gives what *before* becomes; always the same
+
+    @property
+    def splice(self) -> Splice:
+        """The same as a splice."""
+        return Splice(self.channel, self.before, self.moved())
+
+    def inverse(self) -> Splice:
+        """The way back."""
+        return self.splice.inverse()
+
+
+type Change = Splice | Shift | Setting | Membership
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -153,6 +172,12 @@ def put(clip: Clip, change: Change, touched: Touched, *, read_back: bool = True)
     Nothing has changed after an error. Unique names and the order of the range are the business of `check_whole`,
     since a list of changes may pass through what it must not end with.
     """
+    if isinstance(change, Shift):
+        reach = change.channel.shift(change.before, change.d_time, change.d_value)
+        if reach is not None:
+            touched.widen(change.channel, *reach)
+            return change
+        change = change.splice
     if isinstance(change, Splice):
         channel, before, after = change
         t0, t1, given, same_ids = channel.replace(before, after)
@@ -283,7 +308,7 @@ def _in_vain(change: Change, same: set[Channel]) -> bool:
         return change.channel in same
     if isinstance(change, Setting):
         return repr(change.before) == repr(change.after)  # 0.0 and -0.0 are equal, and yet two states
-    return change.before == change.after
+    return isinstance(change, Membership) and change.before == change.after
 
 
 def _cancel_out(splices: list[Splice]) -> bool:

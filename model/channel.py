@@ -14,6 +14,7 @@ from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, Run
 from model.rewinding import Question, Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
+from model.shifting import shift
 
 # Where fewer than one key in so many is asked for, keys are read one by one and not with those between them.
 SPARSE = 4
@@ -272,6 +273,21 @@ class Channel(Curve):
         old_times = (float(before["time"][0]), float(before["time"][-1])) if len(before) else (inf, -inf)
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
         return Spliced(t0, t1, after, same_ids)
+
+    def shift(self, before: Run, d_time: float, d_value: float) -> tuple[float, float] | None:
+        """Move all keys, which must be *before*, as `replace` would; None, and nothing has changed, if it must do that.
+
+        It gives the times between which the curve is different now. Only the many keys of a gesture's start can shift.
+        """
+        rows = self._rows
+        if len(before) != rows.size or not rows.many or splicing.rank_of_run(rows, before, before):
+            return None
+        old = splicing.outer(rows, 0, rows.size)
+        if not shift(rows, d_time, d_value):
+            return None
+        self._changed()
+        old_times = float(before["time"][0]), float(before["time"][-1])
+        return splicing.reach(rows, 0, rows.size, old, old_times, self.pre, self.post)
 
     def hold(self) -> None:
         """Keep from now on what splices overwrite, so that `rewind` can bring the keys of this moment back."""

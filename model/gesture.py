@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from model.change import Change, Edit, Splice, Touched, differing
+from model.change import Change, Edit, Shift, Splice, Touched, differing
 from model.channel import Channel
 from model.clip import Clip
 from model.keyframe import Run
@@ -104,7 +104,7 @@ class Gesture:
     @property
     def changes(self) -> tuple[Change, ...]:
         """The changes of the present preview, with the ids of new keys; slopes by rule are as they were given."""
-        return tuple(self._put)
+        return tuple(change.splice if isinstance(change, Shift) else change for change in self._put)
 
     @property
     def covered(self) -> dict[Channel, Run]:
@@ -244,14 +244,14 @@ class Gesture:
         """Take back what the present preview put in."""
         for channel in self._held:
             channel.rewind()
-        settings = [change.inverse() for change in reversed(self._put) if not isinstance(change, Splice)]
+        settings = [change.inverse() for change in reversed(self._put) if not isinstance(change, Splice | Shift)]
         self._document._put_all(settings, Touched())
         self._put, self._kept = [], None
 
     def _hold(self, changes: Iterable[Change]) -> None:
         """Let the channels that *changes* splice keep what they overwrite."""
         for change in changes:
-            if isinstance(change, Splice) and change.channel not in self._held:
+            if isinstance(change, Splice | Shift) and change.channel not in self._held:
                 self._held[change.channel] = None
                 change.channel.hold()
 
@@ -281,12 +281,13 @@ class Gesture:
 
     def _read_back(self, change: Change) -> Change:
         """*change* with the slopes that the channel has made of it, unless another change has parted its keys."""
-        if not isinstance(change, Splice):
+        if not isinstance(change, Splice | Shift):
             return change
-        try:
-            return change._replace(after=change.channel.stored(change.after))
+        channel, before = change.channel, change.before
+        try:  # a shift has the same keys on both sides
+            return Splice(channel, before, channel.stored(before if isinstance(change, Shift) else change.after))
         except ValueError:
-            return change
+            return change.splice if isinstance(change, Shift) else change
 
     def _with_known_ids(self, splice: Splice, used: dict[Channel, int]) -> Splice:
         known = self._fresh.get(splice.channel)

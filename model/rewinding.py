@@ -10,6 +10,7 @@ from model.keyframe import Run
 
 if TYPE_CHECKING:
     from model.rows import Rows
+    from model.shifting import Shifting
 
 type Grids = tuple[Floats, NDArray[np.uint8], NDArray[np.int32]]
 
@@ -55,7 +56,9 @@ class Start:
         self._written: dict[int, tuple[int, int]] = {}
         self._whole: Whole | None = None
         self._spare: Grids | None = None
+        self._spare_keys = False  # whether marks and ids of the spare grids are those of the start
         self._keys_moved = False
+        self.shifting: Shifting | None = None
         self.ranks_moved = False  # whether rows hold other numbers of keys now
 
     @property
@@ -78,9 +81,12 @@ class Start:
         """Whether *run* is known to be keys of the start."""
         return any(known is run for _, known in self._runs)
 
-    def keep(self, rows: "Rows", row0: int, row1: int, place0: int, place1: int, *, keys_move: bool) -> None:
-        """Make sure of places of the rows row0 to row1 (later); *keys_move*: not only their numbers will change."""
+    def keep(
+        self, rows: "Rows", row0: int, row1: int, place0: int, place1: int, *, keys_move: bool, marks_too: bool
+    ) -> None:
+        """Make sure of places of the rows row0 to row1 (later), which will hold other numbers, marks or even keys."""
         self._keys_moved |= keys_move
+        self._spare_keys &= not marks_too
         if self._whole is not None:
             return
         at = row0
@@ -114,6 +120,20 @@ class Start:
         if spare is not None and spare[0].shape == rows.number_grid.shape:
             return spare[0], spare[1]
         return np.empty_like(rows.number_grid), np.empty_like(rows.mark_grid)
+
+    def twin_grids(self, rows: "Rows") -> Grids:
+        """Grids with the marks and ids of *rows*, which must be as at the start, and numbers that are to be filled."""
+        twins, self._spare = self._spare, None
+        if twins is None or twins[0].shape != rows.number_grid.shape:
+            twins = np.empty_like(rows.number_grid), rows.mark_grid.copy(), rows.id_grid.copy()
+        elif not self._spare_keys:
+            twins[1][:], twins[2][:] = rows.mark_grid, rows.id_grid
+        self._spare_keys = True
+        return twins
+
+    def give_back(self, twins: Grids) -> None:
+        """Have twin grids again that have not been used."""
+        self._spare = twins
 
     def restore(self, rows: "Rows") -> None:
         """Make *rows* what they were."""

@@ -80,6 +80,7 @@ class Rows:
         self.number_grid, self.mark_grid, self.id_grid = grids
         self.rows: int = self.id_grid.shape[0]
         self.width: int = self.id_grid.shape[1]
+        self.many = self.rows >= MANY_ROWS
         self.numbers = self.number_grid.reshape(8, -1)
         self.bits = self.numbers.view(np.int64)
         self.marks = self.mark_grid.reshape(3, -1)
@@ -297,10 +298,10 @@ class Rows:
             if place == 0:
                 self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
 
-    def _keep(self, row0: int, row1: int, place0: int, place1: int, *, keys_move: bool) -> None:
-        """These places of the rows row0 to row1 are about to be written: numbers, or also which keys they hold."""
+    def _keep(self, row0: int, row1: int, place0: int, place1: int, *, keys_move: bool, marks_too: bool = True) -> None:
+        """These places of the rows row0 to row1 are about to be written: numbers, marks, or keys as well."""
         if self.start is not None:
-            self.start.keep(self, row0, row1, place0, place1, keys_move=keys_move)
+            self.start.keep(self, row0, row1, place0, place1, keys_move=keys_move, marks_too=marks_too)
 
     def _remember(self, ids: NDArray[np.int32], row: int) -> None:
         """Note that these keys, one line for each row, are in rows *row* and following."""
@@ -320,7 +321,8 @@ class Rows:
         """Write columns column0 and following of the keys from rank0 on; numbers: (columns, n)."""
         stop, n = column0 + len(numbers), numbers.shape[1]
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + n):
-            self._keep(row, row + rows, place, self.width if place + count == held else place + count, keys_move=False)
+            end = self.width if place + count == held else place + count
+            self._keep(row, row + rows, place, end, keys_move=False, marks_too=False)
             grid = self.number_grid[column0:stop, row : row + rows]
             part = numbers[:, rank - rank0 : rank - rank0 + rows * count]
             grid[:, :, place : place + count] = part.reshape(len(numbers), rows, count)
@@ -339,7 +341,7 @@ class Rows:
         """
         gone, come = rank1 - rank0, len(run)
         if gone == come:
-            if self.start is not None and come == self.size and self.rows >= MANY_ROWS:
+            if self.start is not None and come == self.size and self.many:
                 self._write_elsewhere(self.start, keys_move=not same_ids)
             if not same_ids:
                 self._forget(rank0, rank1)

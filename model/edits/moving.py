@@ -1,12 +1,13 @@
 """Verbs that change where keys are: move, nudge, scale, set a field."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from model.change import Change, Splice
+from model.change import Change, Shift, Splice
 from model.channel import Channel
 from model.clip import Clip
 from model.hermite import LARGEST, Floats
@@ -70,18 +71,25 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
             d_time = _stopped(keys, limit, d_time)
     changes: list[Change] = []
     for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
-        rows = _moved(keys, d_time, d_value)
-        slack = 0.0
-        if d_time:
-            times = rows["time"]
-            if limit is not None:
-                rows["time"] = _inside(times, limit, keys["time"])
-            elif not (times[1:] > times[:-1]).all():
-                rows["time"] = strictly_increasing(times.copy())
-        if d_time and reorder:
-            slack = rounding_slack(keys, rows)
+        if len(keys) == len(channel):
+            changes.append(Shift(channel, keys, d_time, d_value, partial(_in_order, keys, d_time, d_value, limit)))
+            continue
+        rows = _in_order(keys, d_time, d_value, limit)
+        slack = rounding_slack(keys, rows) if d_time and reorder else 0.0
         changes += placed(channel, keys, rows, slack=slack)
     return changes
+
+
+def _in_order(keys: Run, d_time: float, d_value: float, limit: tuple[Floats, Floats] | None) -> Run:
+    """Copies of *keys* moved by both, at times that increase however much rounding has brought them together."""
+    rows = _moved(keys, d_time, d_value)
+    if d_time:
+        times = rows["time"]
+        if limit is not None:
+            rows["time"] = _inside(times, limit, keys["time"])
+        elif not (times[1:] > times[:-1]).all():
+            rows["time"] = strictly_increasing(times.copy())
+    return rows
 
 
 def nudge(

@@ -104,8 +104,9 @@ def test_an_error_of_the_other_thread_is_raised_here_and_nothing_has_changed(des
 
     def failing(clip: Clip) -> list[Change]:
         first, second = desk.raised(clip)
-        second.after["value"][7] = np.nan
-        return [first, second]
+        bad = second.splice
+        bad.after["value"][7] = np.nan
+        return [first, bad]
 
     with pytest.raises(ValueError, match="value"):
         desk.do(failing)

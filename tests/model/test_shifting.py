@@ -1,0 +1,120 @@
+"""All keys moved at once: the short way and the splice give the same bytes."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from model import edits, rows
+from model.change import Shift
+from model.channel import Channel
+from model.clip import Clip
+from model.document import Document
+from model.extrapolation import Extrapolation
+from model.keyframe import TangentRule, make_run
+from model.selection import Selection
+from tests.model.editing import everything
+
+RULES = list(TangentRule)
+NUMBERS = st.one_of(
+    st.sampled_from([0.0, -0.0, 0.1, -1.0, 5e-324, 1e-308, 1e17, -1e300, 1.7e308]), st.floats(-1e3, 1e3)
+)
+
+EDGES = np.linspace(-5.0, 80.0, 40)
+
+
+@pytest.fixture
+def short_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, size in (("WIDEST", 8), ("FILLED", 6), ("AT_A_TIME", 2), ("MANY_ROWS", 2)):
+        monkeypatch.setattr(rows, name, size)
+
+
+def channel_of(seed: int, n: int, kinds: int, scale: float) -> Channel:
+    """Keys by one or more rules, uneven rows, values on both sides of 0 and at both zeros."""
+    chance = np.random.default_rng(seed)
+    rules_out = chance.choice(chance.permutation(RULES)[:kinds], n)
+    rules_in = np.where(rules_out == TangentRule.STEP, TangentRule.AUTO, rules_out)
+    values = chance.normal(size=n).clip(-2.0, 2.0) * scale * chance.choice([0.0, -0.0, 1.0, 1.0], n)
+    times = np.cumsum(chance.uniform(0.01, 1.0, n)) - 2.0
+    slopes = chance.normal(size=(2, n)).clip(-2.0, 2.0) * scale
+    modes = chance.choice(list(Extrapolation), 2)
+    channel = Channel("x", make_run(times, values, *slopes, rules_in, rules_out), pre=modes[0], post=modes[1])
+    for _ in range(int(chance.integers(0, 4))):
+        run = channel.run()
+        at = int(chance.integers(0, len(run) - 3))
+        channel.splice(run[at : at + 3], run[at + 1 : at + 2])
+    return channel
+
+
+def all_bytes(channel: Channel) -> tuple[Any, ...]:
+    channel.check()
+    rows = channel._rows
+    slots = rows.slots(np.arange(rows.size))
+    return rows.numbers[:, slots].tobytes(), channel.run().tobytes(), channel.pre, channel.post
+
+
+@pytest.mark.usefixtures("short_rows")
+@settings(max_examples=150, deadline=None)
+@given(
+    st.integers(0, 10**6),
+    st.integers(13, 80),
+    st.integers(1, 3),
+    st.sampled_from([1.0, 1e-310, 1e305, 8e307]),
+    st.lists(st.tuples(NUMBERS, NUMBERS, st.booleans()), min_size=1, max_size=4),
+)
+def test_every_step_of_a_drag_of_all_keys_is_what_the_splice_makes(
+    seed: int, n: int, kinds: int, scale: float, steps: list[tuple[float, float, bool]]
+) -> None:
+    channel, twin = (channel_of(seed, n, kinds, scale) for _ in range(2))
+    document, start = Document(Clip([channel])), everything(Clip([channel]))
+    chosen = Selection.of_all([channel])
+    told: list[tuple[float, float]] = []
+    document.changed.connect(lambda _, t0, t1: told.append((t0, t1)))
+    one = Selection.of({channel: chosen.ids(channel)[:: n // 2]})
+    gesture = document.begin("Drag")
+    for d_time, d_value, reorder in steps:
+        # Marks are written over the keys that a step before has left behind.
+        flat = (edits.set_rule(clip, one, TangentRule.FLAT) for clip in [document.clip])
+        gesture.preview(lambda clip, v=d_value, f=flat: [*edits.move(clip, chosen, 0.0, v), *next(f)])
+        told.clear()
+        gesture.preview(lambda clip, t=d_time, v=d_value, r=reorder: edits.move(clip, chosen, t, v, reorder=r))
+        (splice,) = gesture.changes
+        alone = channel_of(seed, n, kinds, scale)
+        reach = alone.splice(alone.run(), splice.after)
+        assert all_bytes(channel) == all_bytes(alone)
+        for ours, theirs in zip(channel.envelope(EDGES), alone.envelope(EDGES), strict=True):
+            assert ours.tobytes() == theirs.tobytes()
+        assert told[0][0] <= reach.t0 <= reach.t1 <= told[0][1]
+    edit = gesture.commit()
+    if edit is not None:
+        document.apply(edit.inverse())
+    assert everything(Clip([channel])) == start == everything(Clip([twin]))
+    assert all_bytes(channel) == all_bytes(twin)
+
+
+@pytest.mark.usefixtures("short_rows")
+@pytest.mark.parametrize(
+    ("move", "short"), [((0.5, -3.0), True), ((0.0, 0.0), True), ((1e17, 0.0), False), ((0.0, 1.7e308), False)]
+)
+@pytest.mark.parametrize("rules", [(TangentRule.SMOOTH,), (TangentRule.SMOOTH, TangentRule.AUTO)])
+def test_only_what_is_unusual_is_left_to_a_splice(
+    move: tuple[float, float], short: bool, rules: tuple[TangentRule, ...]
+) -> None:
+    columns = np.resize(rules, 50)
+    channel = Channel("x", make_run(np.arange(50), np.arange(50) % 7 * 1e305, 0.0, 0.0, columns, columns))
+    document, chosen = Document(Clip([channel])), Selection.of_all([channel])
+    with document.begin("Drag") as gesture:
+        gesture.preview(lambda clip: edits.move(clip, chosen, *move))
+        assert [isinstance(change, Shift) for change in gesture._put] == [short]
+
+
+@pytest.mark.usefixtures("short_rows")
+def test_slopes_too_steep_for_a_double_are_those_of_the_rule() -> None:
+    channel = Channel("x", make_run(np.arange(50) * 1e-309, np.resize([1.0, 1.0, -1.0, -1.0], 50)))
+    document, chosen = Document(Clip([channel])), Selection.of_all([channel])
+    with document.begin("Drag") as gesture:
+        gesture.preview(lambda clip: edits.move(clip, chosen, 0.0, 1.0))
+        channel.check()
+        assert np.isfinite(channel.run()["slope_in"]).all()
