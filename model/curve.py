@@ -8,7 +8,7 @@ from typing import NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from model import envelope, evaluation
+from model import envelope, evaluation, extremes
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation
 from model.hermite import LARGEST, Floats
 from model.lookup import DOUBLE, SLOTS_A_TIME, TABLE_TIMES, Table, span_struct
@@ -59,7 +59,7 @@ class Curve:
         self._ends: Ends | None = None
         self._whole_range: tuple[float, float] | None = None  # from the first to the last key
         self._table: Table | None = None
-        self._extremes: envelope.Extremes | None = None
+        self._extremes: extremes.Extremes | None = None
         self._hit = _NOWHERE
         self._searched = 0
         self._seekable = _NOT_YET
@@ -252,7 +252,7 @@ class Curve:
         if whole and self._whole_range is not None:
             return self._whole_range
         if whole and self._rows.rows == 1:
-            self._whole_range = envelope.whole(self._rows)
+            self._whole_range = extremes.whole(self._rows)
             return self._whole_range
         ends = self._the_ends()
         edges = np.array([ends.time0 if t0 is None else t0, ends.time1 if t1 is None else t1])
@@ -268,7 +268,7 @@ class Curve:
         if len(self) == 0:
             return np.zeros(max(len(array) - 1, 0)), np.zeros(max(len(array) - 1, 0))
         if self._extremes is None or self._extremes.numbers is not self._rows.numbers:
-            self._extremes = envelope.Extremes(self._rows)
+            self._extremes = extremes.Extremes(self._rows)
         return envelope.envelope(self._rows, self._extremes, self._the_ends(), array, self.pre, self.post)
 
 

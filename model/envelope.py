@@ -1,136 +1,18 @@
 """The exact range of a curve in each column of a picture, whatever the number of keys.
 
-Inside a span the curve turns at most twice. Each span keeps the lowest and highest of its first key and these
-turns, each block of spans the lowest and highest of its spans. A column is then its two edges, the turns of the two
-spans that its edges cut, and the spans and blocks between.
+A column is its two edges, the turns of the two spans that its edges cut, and the spans between (model/extremes.py).
 """
 
-from itertools import batched
 from typing import NamedTuple
 
 import numpy as np
 
 from model import evaluation, hermite
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation, periods
+from model.extremes import Extremes, Range, turns_of
 from model.hermite import LARGEST, Floats
 from model.keyframe import TangentRule
-from model.rows import AT_A_TIME, RULE_OUT, TIME, VALUE, A, B, C, Rows, Slots
-
-BLOCK = 32
-# Up to so many spans, those between two pairs of ends and behind the last included, one pass is quicker than blocks.
-DIRECT = 20_000
-
-type Range = tuple[Floats, Floats]
-
-
-class Extremes:
-    """The lowest and highest values of all spans and blocks of one channel's rows, worked out when asked for."""
-
-    def __init__(self, rows: Rows) -> None:
-        self.numbers = rows.numbers
-        self.block = min(BLOCK, rows.width)
-        self.low, self.high = np.empty(len(rows.ids)), np.empty(len(rows.ids))
-        self.block_low, self.block_high = np.empty((2, len(rows.ids) // self.block))
-        rows.dirty = set(range(rows.rows))
-
-    def refresh(self, rows: Rows, slot0: int, slot1: int) -> None:
-        """Work out anew the rows from slot0 to slot1 that have changed."""
-        row0, row1 = slot0 // rows.width, slot1 // rows.width + 1
-        stale = sorted(rows.dirty.intersection(range(row0, row1)) if len(rows.dirty) > 1 else rows.dirty)
-        for few in batched(stale, AT_A_TIME):
-            some = np.array(few)
-            low, high = _span_ranges(rows, some)
-            self.low.reshape(-1, rows.width)[some], self.high.reshape(-1, rows.width)[some] = low, high
-            in_blocks = (len(some), -1, self.block)
-            blocks = (-1, rows.width // self.block)
-            self.block_low.reshape(blocks)[some] = low.reshape(in_blocks).min(axis=2)
-            self.block_high.reshape(blocks)[some] = high.reshape(in_blocks).max(axis=2)
-        rows.dirty.difference_update(stale)
-
-    def between(self, starts: Slots, ends: Slots) -> Range:
-        """The ranges over the slots from *starts* up to before *ends*, pair by pair; (inf, -inf) over none."""
-        cuts = np.minimum(np.stack([starts, ends], axis=1).reshape(-1), len(self.low) - 1)
-        passed = int(np.maximum(cuts[1:] - cuts[:-1], 0).sum())
-        if passed + len(self.low) <= DIRECT:
-            low, high = np.minimum.reduceat(self.low, cuts)[::2], np.maximum.reduceat(self.high, cuts)[::2]
-            none = starts >= ends
-            low[none], high[none] = np.inf, -np.inf
-            return low, high
-        size = self.block
-        first, last = -(-starts // size), ends // size
-        low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
-        (whole,) = (first < last).nonzero()
-        if len(whole):
-            cuts = np.stack([first[whole], last[whole]], axis=1).reshape(-1)
-            low[whole] = np.minimum.reduceat(self.block_low, cuts)[::2]
-            high[whole] = np.maximum.reduceat(self.block_high, cuts)[::2]
-        # What is left at both ends is shorter than a block.
-        for begin, end in ((starts, np.minimum(ends, first * size)), (np.maximum(starts, last * size), ends)):
-            (some,) = (begin < end).nonzero()
-            if len(some):
-                begins = begin.take(some)
-                counts = end.take(some) - begins
-                firsts = counts.cumsum() - counts
-                slots = (begins - firsts).repeat(counts)
-                slots += np.arange(len(slots))
-                low[some] = np.minimum(low.take(some), np.minimum.reduceat(self.low.take(slots), firsts))
-                high[some] = np.maximum(high.take(some), np.maximum.reduceat(self.high.take(slots), firsts))
-        return low, high
-
-
-def _span_ranges(rows: Rows, some: Slots) -> Range:
-    """The ranges over the first keys and the turns of the spans of *some* rows: (rows, width)."""
-    a, b, c, d = (rows.number_grid[column].take(some, axis=0) for column in (A, B, C, VALUE))
-    low, high = d, d.copy()
-    with np.errstate(all="ignore"):
-        bend = b + 3.0 * a
-        # Without a change of sign from slope to slope, or from bend to bend, the curve does not turn.
-        turning = ~(c * (c + b + bend) > 0.0) | ((b < 0.0) != (bend < 0.0))
-        turning &= (a != 0.0) | (b != 0.0)
-    (turns,) = turning.reshape(-1).nonzero()
-    if len(turns):
-        row, place = np.divmod(turns, rows.width)
-        values = _turns(rows, some.take(row) * rows.width + place)[1]
-        flat_low, flat_high = low.reshape(-1), high.reshape(-1)
-        flat_low[turns] = np.fmin(flat_low.take(turns), np.fmin(values[0], values[1]))
-        flat_high[turns] = np.fmax(flat_high.take(turns), np.fmax(values[0], values[1]))
-    return low, high
-
-
-def _turns(rows: Rows, slots: Slots) -> Range:
-    """(u, value) where the spans of these slots turn, each (2, n); NaN where they do not."""
-    abc, d = rows.numbers[A : C + 1].take(slots, axis=1), rows.numbers[VALUE].take(slots)
-    places = np.empty((2, len(slots)))
-    with np.errstate(all="ignore"):
-        # Scaled to size one, so that squares neither overflow nor vanish.
-        size = np.abs(abc).max(axis=0)
-        a, b, c = abc / np.where((size > 0.0) & (size < np.inf), size, 1.0)
-        a *= 3.0
-        # a u^2 + 2 b u + c = 0, by the form without cancellation.
-        q = -(b + np.copysign(np.sqrt(b * b - a * c), b))
-        np.divide(c, q, out=places[0])
-        np.divide(q, a, out=places[1])
-        places[(places <= 0.0) | (places >= 1.0)] = np.nan
-        values = places * abc[0]
-        values += abc[1]
-        values *= places
-        values += abc[2]
-        values *= places
-        values += d
-        wild = ~np.isfinite(size) | np.isinf(values).any(axis=0)
-    if wild.any():
-        spans, _ = evaluation.scaled_spans(rows, rows.real(slots[wild]))
-        places[:, wild] = hermite.extremum_places(spans.a, spans.b, spans.c)
-        values[:, wild] = spans.value(places[0, wild]), spans.value(places[1, wild])
-    return places, values
-
-
-def whole(rows: Rows) -> tuple[float, float]:
-    """The range from the first to the last key of rows that are one only, without what is kept for columns."""
-    keys = slice(0, rows.size - 1)
-    low, high = _span_ranges(rows, np.zeros(1, np.int64))
-    last = float(rows.numbers[VALUE, rows.size - 1])
-    return float(low[0, keys].min(initial=last)), float(high[0, keys].max(initial=last))
+from model.rows import RULE_OUT, TIME, Rows, Slots
 
 
 class Points(NamedTuple):
@@ -153,7 +35,7 @@ class Points(NamedTuple):
 
 def _points(rows: Rows, times: Floats) -> Points:
     slots = np.maximum(rows.times.searchsorted(times, "right") - 1, 0)
-    turns, turn_values = _turns(rows, slots)
+    turns, turn_values = turns_of(rows, slots)
     _, keys, _, _, a, b, c, d_times = numbers = rows.numbers.take(slots, axis=1)
     with np.errstate(all="ignore"):
         u = (times - numbers[TIME]) / d_times
@@ -190,7 +72,7 @@ def _ranges(rows: Rows, extremes: Extremes, begins: Points, ends: Points) -> Ran
     low, high = np.minimum(low, key), np.maximum(high, key)
     if len(one_span) and not one_span.all():
         extremes.refresh(rows, int(begins.slot.min()), int(ends.slot.max()))
-        within = extremes.between(begins.next_slot, np.where(one_span, begins.next_slot, ends.slot))
+        within = extremes.between(rows, begins.next_slot, np.where(one_span, begins.next_slot, ends.slot))
         low, high = np.minimum(low, within[0]), np.maximum(high, within[1])
     return low, high
 

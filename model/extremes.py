@@ -1,0 +1,221 @@
+"""The lowest and highest values of spans and blocks of spans, exact however few of them are worked out.
+
+Inside a span the curve turns at most twice. A span whose control points lie within the range of the keys around it
+adds nothing to that range, and so its turns need not be worked out.
+"""
+
+from itertools import batched
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model import evaluation, hermite
+from model.hermite import Floats
+from model.rows import AT_A_TIME, VALUE, A, B, C, Rows, Slots
+
+BLOCK = 64
+# Up to so many spans, those between two pairs of ends and behind the last included, one pass is quicker than blocks.
+DIRECT = 20_000
+# Up to so many spans all are worked out at once; of more, the columns of a picture begin and end among few.
+EACH = 1 << 18
+# What rounding may do to a turn: as a share of the largest value, of that and the range together, and at least.
+ROUNDING, NEAR, LEAST = 1e-12, 2e-6, 1e-300
+
+type Range = tuple[Floats, Floats]
+
+
+class Extremes:
+    """The lowest and highest values of all spans and blocks of one channel's rows, worked out when asked for.
+
+    A block needs few of its spans; the others of a long channel follow when a column begins or ends among them.
+    Spare slots count as keys without a span in the ranges of blocks.
+    """
+
+    def __init__(self, rows: Rows) -> None:
+        self.numbers = rows.numbers
+        self.block = min(BLOCK, rows.width)
+        self.each = len(rows.ids) <= EACH
+        self.low, self.high = np.empty((2, len(rows.ids)))
+        self.block_low, self.block_high = np.empty((2, len(rows.ids) // self.block))
+        self.known = np.zeros(len(self.block_low), np.bool_)  # the blocks whose spans are worked out too
+        self._room = np.empty((3, min(rows.rows, AT_A_TIME) * rows.width))
+        rows.dirty = set(range(rows.rows))
+
+    def refresh(self, rows: Rows, slot0: int, slot1: int) -> None:
+        """Work out anew the rows from slot0 to slot1 that have changed."""
+        row0, row1 = slot0 // rows.width, slot1 // rows.width + 1
+        stale = sorted(rows.dirty.intersection(range(row0, row1)) if len(rows.dirty) > 1 else rows.dirty)
+        parts = [np.array(few) for few in batched(stale, AT_A_TIME)]
+        if self.each:
+            for some in parts:
+                self._measure(rows, some)
+        elif parts:
+            self.known.reshape(-1, rows.width // self.block)[stale] = False
+            with np.errstate(all="ignore"):
+                self._widen(rows, np.concatenate([self._measure_keys(rows, some) for some in parts]))
+        rows.dirty.difference_update(stale)
+
+    def _measure(self, rows: Rows, some: Slots) -> None:
+        """Work out the ranges of all spans of some rows, and of their blocks."""
+        low, high = self._measure_spans(rows, some, rows.width)
+        in_blocks, blocks = (len(some), -1, self.block), (-1, rows.width // self.block)
+        self.block_low.reshape(blocks)[some] = low.reshape(in_blocks).min(axis=2)
+        self.block_high.reshape(blocks)[some] = high.reshape(in_blocks).max(axis=2)
+
+    def _measure_spans(self, rows: Rows, some: Slots, size: int) -> Range:
+        """Work out the ranges of the spans in some lines of *size* slots."""
+        low, high = _span_ranges(rows, some, size)
+        self.low.reshape(-1, size)[some], self.high.reshape(-1, size)[some] = low, high
+        return low, high
+
+    def _measure_keys(self, rows: Rows, some: Slots) -> Slots:
+        """Set the ranges of the blocks of some rows to those of their keys; the slots of spans that may leave them."""
+        neighbours = some[-1] - some[0] == len(some) - 1
+        few = slice(some[0], some[-1] + 1) if neighbours else some
+        b, c, d = (rows.number_grid[column][few].reshape(-1) for column in (B, C, VALUE))
+        begins, blocks = np.arange(0, len(d), self.block), (-1, rows.width // self.block)
+        low, high = np.minimum.reduceat(d, begins), np.maximum.reduceat(d, begins)
+        self.block_low.reshape(blocks)[few] = low.reshape(len(some), -1)
+        self.block_high.reshape(blocks)[few] = high.reshape(len(some), -1)
+        least, most = _safe(low, high)
+        p1, p2, spare = self._room[:, : len(d)]
+        _control_points(b, c, d, p1, p2)
+        np.maximum(p1, p2, out=spare)
+        beyond = ~(spare.reshape(-1, self.block) <= most[:, None])
+        np.minimum(p1, p2, out=spare)
+        beyond |= ~(spare.reshape(-1, self.block) >= least[:, None])
+        # The spans of spare slots are those of the last key.
+        beyond.reshape(len(some), -1)[:, int((rows.first[some + 1] - rows.first[some]).max()) :] = False
+        (slots,) = beyond.reshape(-1).nonzero()
+        found: Slots = some.take(slots // rows.width) * rows.width + slots % rows.width
+        return found
+
+    def _widen(self, rows: Rows, slots: Slots) -> None:
+        """Have the turns of these spans in the ranges of their blocks."""
+        slots = slots[_may_turn(*(rows.numbers[column].take(slots) for column in (A, B, C)))]
+        values, block = turns_of(rows, slots)[1], slots // self.block
+        np.fmin.at(self.block_low, block, np.fmin(values[0], values[1]))
+        np.fmax.at(self.block_high, block, np.fmax(values[0], values[1]))
+
+    def between(self, rows: Rows, starts: Slots, ends: Slots) -> Range:
+        """The ranges over the slots from *starts* up to before *ends*, pair by pair; (inf, -inf) over none."""
+        cuts = np.minimum(np.stack([starts, ends], axis=1).reshape(-1), len(rows.ids) - 1)
+        passed = int(np.maximum(cuts[1:] - cuts[:-1], 0).sum())
+        if self.each and passed + len(self.low) <= DIRECT:
+            low, high = np.minimum.reduceat(self.low, cuts)[::2], np.maximum.reduceat(self.high, cuts)[::2]
+            none = starts >= ends
+            low[none], high[none] = np.inf, -np.inf
+            return low, high
+        size = self.block
+        first, last = -(-starts // size), ends // size
+        low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
+        (whole,) = (first < last).nonzero()
+        if len(whole):
+            cuts = np.stack([first[whole], last[whole]], axis=1).reshape(-1)
+            low[whole] = np.minimum.reduceat(self.block_low, cuts)[::2]
+            high[whole] = np.maximum.reduceat(self.block_high, cuts)[::2]
+        # What is left at both ends is shorter than a block, and adds nothing where all of its block lies within.
+        for begin, end in ((starts, np.minimum(ends, first * size)), (np.maximum(starts, last * size), ends)):
+            block = np.minimum(begin // size, len(self.block_low) - 1)
+            outside = (self.block_low.take(block) < low) | (self.block_high.take(block) > high)
+            (some,) = ((begin < end) & outside).nonzero()
+            if len(some):
+                self._know(rows, block.take(some))
+                begins = begin.take(some)
+                counts = end.take(some) - begins
+                firsts = counts.cumsum() - counts
+                slots = (begins - firsts).repeat(counts)
+                slots += np.arange(len(slots))
+                low[some] = np.minimum(low.take(some), np.minimum.reduceat(self.low.take(slots), firsts))
+                high[some] = np.maximum(high.take(some), np.maximum.reduceat(self.high.take(slots), firsts))
+        return low, high
+
+    def _know(self, rows: Rows, blocks: Slots) -> None:
+        """Have the ranges of all spans of these blocks."""
+        if self.each:
+            return
+        wanted = np.unique(blocks[~self.known[blocks]])
+        for some in np.array_split(wanted, len(wanted) * self.block // (AT_A_TIME * rows.width) + 1):
+            self._measure_spans(rows, some, self.block)
+        self.known[wanted] = True
+
+
+def _safe(low: Floats, high: Floats) -> Range:
+    """Bounds within *low* to *high*: with its inner control points between them a span does not turn outside these.
+
+    Since a curve crosses no level more often than the line through its control points does, it turns downwards no
+    higher than the higher of the inner ones, and upwards no higher than the key that it starts from; and so below.
+    But a turn as it is worked out may lie some 1e-14 of the largest value off. No turn is that near to a key at the
+    end of the range if the curve leaves the key steeply enough.
+    """
+    largest = np.maximum(np.abs(low), np.abs(high))
+    slack = np.sqrt((high - low) * NEAR) * np.sqrt(largest * NEAR) + largest * ROUNDING + LEAST
+    return low + slack, high - slack
+
+
+def _control_points(b: Floats, c: Floats, d: Floats, p1: Floats, p2: Floats) -> None:
+    """Fill *p1* and *p2* with the two control points between the keys of each span."""
+    np.multiply(c, 1.0 / 3.0, out=p1)
+    p1 += d
+    np.add(b, c, out=p2)
+    p2 *= 1.0 / 3.0
+    p2 += p1
+
+
+def _may_turn(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
+    """Whether a span may turn: without a change of sign from slope to slope, or from bend to bend, it does not."""
+    with np.errstate(all="ignore"):
+        bend = b + 3.0 * a
+        turning: NDArray[np.bool_] = ~(c * (c + b + bend) > 0.0) | ((b < 0.0) != (bend < 0.0))
+        turning &= (a != 0.0) | (b != 0.0)
+    return turning
+
+
+def _span_ranges(rows: Rows, some: Slots, size: int) -> Range:
+    """The ranges over the first keys and the turns of the spans of *some* lines of *size* slots: (lines, size)."""
+    a, b, c, d = (rows.numbers[column].reshape(-1, size).take(some, axis=0) for column in (A, B, C, VALUE))
+    low, high = d, d.copy()
+    (turns,) = _may_turn(a, b, c).reshape(-1).nonzero()
+    if len(turns):
+        line, place = np.divmod(turns, size)
+        values = turns_of(rows, some.take(line) * size + place)[1]
+        flat_low, flat_high = low.reshape(-1), high.reshape(-1)
+        flat_low[turns] = np.fmin(flat_low.take(turns), np.fmin(values[0], values[1]))
+        flat_high[turns] = np.fmax(flat_high.take(turns), np.fmax(values[0], values[1]))
+    return low, high
+
+
+def turns_of(rows: Rows, slots: Slots) -> Range:
+    """(u, value) where the spans of these slots turn, each (2, n); NaN where they do not."""
+    abc, d = rows.numbers[A : C + 1].take(slots, axis=1), rows.numbers[VALUE].take(slots)
+    places = np.empty((2, len(slots)))
+    with np.errstate(all="ignore"):
+        # Scaled to size one, so that squares neither overflow nor vanish.
+        size = np.abs(abc).max(axis=0)
+        a, b, c = abc / np.where((size > 0.0) & (size < np.inf), size, 1.0)
+        a *= 3.0
+        # a u^2 + 2 b u + c = 0, by the form without cancellation.
+        q = -(b + np.copysign(np.sqrt(b * b - a * c), b))
+        np.divide(c, q, out=places[0])
+        np.divide(q, a, out=places[1])
+        places[(places <= 0.0) | (places >= 1.0)] = np.nan
+        values = places * abc[0]
+        values += abc[1]
+        values *= places
+        values += abc[2]
+        values *= places
+        values += d
+        wild = ~np.isfinite(size) | np.isinf(values).any(axis=0)
+    if wild.any():
+        spans, _ = evaluation.scaled_spans(rows, rows.real(slots[wild]))
+        places[:, wild] = hermite.extremum_places(spans.a, spans.b, spans.c)
+        values[:, wild] = spans.value(places[0, wild]), spans.value(places[1, wild])
+    return places, values
+
+
+def whole(rows: Rows) -> tuple[float, float]:
+    """The range from the first to the last key of rows that are one only, without what is kept for columns."""
+    keys = slice(0, rows.size - 1)
+    low, high = _span_ranges(rows, np.zeros(1, np.int64), rows.width)
+    last = float(rows.numbers[VALUE, rows.size - 1])
+    return float(low[0, keys].min(initial=last)), float(high[0, keys].max(initial=last))

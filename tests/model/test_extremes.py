@@ -1,0 +1,93 @@
+"""Few spans worked out give exactly the ranges that all of them do."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from model import extremes, rows
+from model.channel import Channel
+from model.hermite import Floats
+from model.keyframe import TangentRule, make_run
+
+VALUES = [
+    lambda chance, n: chance.normal(size=n).cumsum(),
+    lambda chance, n: chance.normal(size=n) * 1e-3 + 1e6,
+    lambda chance, n: np.sin(np.arange(n) / 9.0),
+    lambda chance, n: chance.choice([0.0, -0.0, 1.0], n),
+    lambda chance, n: chance.normal(size=n) * 1e-310,
+    lambda chance, n: chance.choice([1e308, -1.6e308, 3.0, 5e-324], n),
+    lambda chance, n: np.zeros(n),
+    lambda chance, n: chance.choice([1e300, 1.0, 0.0], n, p=[0.05, 0.5, 0.45]),
+]
+
+
+@pytest.fixture
+def short_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module, name, size in (
+        (rows, "WIDEST", 16),
+        (rows, "FILLED", 11),
+        (extremes, "AT_A_TIME", 3),
+        (extremes, "BLOCK", 4),
+        (extremes, "DIRECT", 0),
+    ):
+        monkeypatch.setattr(module, name, size)
+
+
+def channel_of(seed: int, kind: int, n: int) -> Channel:
+    """Keys by mixed rules, some with slopes of any size, in rows of different numbers of keys."""
+    chance = np.random.default_rng(seed)
+    rules_out = chance.choice(chance.permutation(list(TangentRule))[: chance.integers(1, 7)], n)
+    rules_in = np.where(rules_out == TangentRule.STEP, TangentRule.AUTO, rules_out)
+    slopes = chance.normal(size=(2, n)) * 10.0 ** chance.choice([-13, -11, -9, -6, 0, 2, 20], (2, n))
+    times = np.cumsum(chance.choice([1e-3, 0.1, 1.0], n))
+    channel = Channel("x", make_run(times, VALUES[kind](chance, n), *slopes, rules_in, rules_out))
+    for _ in range(int(chance.integers(0, 6))):
+        run = channel.run()
+        at = int(chance.integers(0, len(run) - 6))
+        channel.splice(run[at : at + 6], run[at + 1 : at + int(chance.integers(1, 6))])
+    return channel
+
+
+def ranges(channel: Channel, edges: Floats, each: int) -> tuple[bytes, bytes]:
+    """The ranges of all columns when spans are worked out all at once up to so many."""
+    extremes.EACH, kept = each, extremes.EACH
+    try:
+        channel._extremes = None
+        low, high = channel.envelope(edges)
+        return (low + 0.0).tobytes(), (high + 0.0).tobytes()  # of zeros either may come first
+    finally:
+        extremes.EACH = kept
+
+
+@pytest.mark.usefixtures("short_rows")
+@settings(max_examples=300, deadline=None)
+@given(st.integers(0, 10**6), st.integers(0, len(VALUES) - 1), st.integers(40, 150), st.sampled_from([3, 9, 30, 200]))
+def test_few_spans_are_enough(seed: int, kind: int, n: int, columns: int) -> None:
+    channel = channel_of(seed, kind, n)
+    run = channel.run()
+    for edges in (
+        np.linspace(run["time"][0], run["time"][-1], columns),
+        np.sort(np.random.default_rng(seed).choice(run["time"], columns)),
+    ):
+        assert ranges(channel, edges, 0) == ranges(channel, edges, 1 << 18)
+
+
+@pytest.mark.usefixtures("short_rows")
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10**6), st.integers(0, len(VALUES) - 1), st.data())
+def test_what_is_known_of_blocks_is_forgotten_with_their_keys(seed: int, kind: int, data: st.DataObject) -> None:
+    channel = channel_of(seed, kind, 100)
+    extremes.EACH, kept = 0, extremes.EACH
+    try:
+        for _ in range(5):
+            run = channel.run()
+            edges = np.linspace(run["time"][0], run["time"][-1], data.draw(st.integers(2, 40)))
+            for ours, theirs in zip(channel.envelope(edges), channel.copy().envelope(edges), strict=True):
+                assert (ours == theirs).all()
+            at, count = data.draw(st.integers(0, len(run) - 9)), data.draw(st.integers(1, 8))
+            after = run[at : at + count].copy()
+            after["value"] += data.draw(st.floats(-10.0, 10.0))
+            channel.splice(run[at : at + count], after)
+    finally:
+        extremes.EACH = kept
