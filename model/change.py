@@ -57,22 +57,17 @@ class Membership(NamedTuple):
 
 
 class Shift(NamedTuple):
-    """All keys of *channel*, *before*, move alike and stay in order: a splice whose other side is seldom asked for."""
+    """The keys *before* of *channel*, which need not be neighbours, move alike: splices that are seldom asked for.
+
+    None of its keys may be changed by what is put in before it.
+    """
 
     channel: Channel
     before: Run
     d_time: float
     d_value: float
-    moved: Callable[[], Run]  # gives what *before* becomes; always the same
-
-    @property
-    def splice(self) -> Splice:
-        """The same as a splice."""
-        return Splice(self.channel, self.before, self.moved())
-
-    def inverse(self) -> Splice:
-        """The way back."""
-        return self.splice.inverse()
+    slack: float  # keys that come no more than so many seconds near to each other are a matter for splices
+    splices: Callable[[], list[Splice]]  # the same as splices, worked out while the channel is as it was
 
 
 type Change = Splice | Shift | Setting | Membership
@@ -150,6 +145,24 @@ class Touched:
         return twin
 
 
+def shifted(shift: Shift, touched: Touched) -> Change | None:
+    """Put *shift* in by its channel's short way; it, or the splice it was, or None if that way is closed."""
+    done = shift.channel.shift(shift.before, shift.d_time, shift.d_value, shift.slack)
+    if done is None:
+        return None
+    touched.widen(shift.channel, done.t0, done.t1)
+    touched.keys_came_or_went |= not done.same_order
+    return shift if done.sides is None else Splice(shift.channel, *done.sides)
+
+
+def unshifted(changes: Iterable[Change]) -> list[Splice | Setting | Membership]:
+    """*changes* with splices for what has been shifted as a whole, or is to be while its channel is as it was."""
+    found: list[Splice | Setting | Membership] = []
+    for change in changes:
+        found += change.splices() if isinstance(change, Shift) else [change]
+    return found
+
+
 def validated(change: Change) -> Change:
     """*change* with its setting in canonical form; ValueError if that is no value for it.
 
@@ -172,12 +185,6 @@ def put(clip: Clip, change: Change, touched: Touched, *, read_back: bool = True)
     Nothing has changed after an error. Unique names and the order of the range are the business of `check_whole`,
     since a list of changes may pass through what it must not end with.
     """
-    if isinstance(change, Shift):
-        reach = change.channel.shift(change.before, change.d_time, change.d_value)
-        if reach is not None:
-            touched.widen(change.channel, *reach)
-            return change
-        change = change.splice
     if isinstance(change, Splice):
         channel, before, after = change
         t0, t1, given, same_ids = channel.replace(before, after)
@@ -186,6 +193,7 @@ def put(clip: Clip, change: Change, touched: Touched, *, read_back: bool = True)
         return Splice(channel, before, channel.stored(given) if read_back else given)
     if isinstance(change, Setting):
         return _set(change, touched)
+    assert isinstance(change, Membership), "a shift is put in by its channel"
     if tuple(clip.channels) != change.before:
         raise ValueError("the channels of the clip are not those that the change starts from")
     if len(set(change.after)) < len(change.after):

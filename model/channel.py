@@ -12,6 +12,7 @@ from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, Run
+from model.resorting import MOST_RESORTED, Resorting
 from model.rewinding import Question, Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
 from model.shifting import shift
@@ -38,6 +39,15 @@ class Spliced(NamedTuple):
     t1: float
     given: Run
     same_ids: bool
+
+
+class Shifted(NamedTuple):
+    """The same (t0, t1); whether the keys are in the order they were; which gave way to which, unless it was all."""
+
+    t0: float
+    t1: float
+    same_order: bool
+    sides: tuple[Run, Run] | None
 
 
 class Channel(Curve):
@@ -274,20 +284,39 @@ class Channel(Curve):
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
         return Spliced(t0, t1, after, same_ids)
 
-    def shift(self, before: Run, d_time: float, d_value: float) -> tuple[float, float] | None:
-        """Move all keys, which must be *before*, as `replace` would; None, and nothing has changed, if it must do that.
+    def shift(self, before: Run, d_time: float, d_value: float, slack: float) -> Shifted | None:
+        """Move the keys *before* alike, by a way shorter than splices and with the same outcome.
 
-        It gives the times between which the curve is different now. Only the many keys of a gesture's start can shift.
+        None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for all of very
+        many keys or many of not very many, whose new places are more than *slack* seconds from other keys.
         """
         rows = self._rows
-        if len(before) != rows.size or not rows.many or splicing.rank_of_run(rows, before, before):
+        start = rows.start
+        if start is None or start.left:
             return None
-        old = splicing.outer(rows, 0, rows.size)
-        if not shift(rows, d_time, d_value):
+        if rows.many and len(before) == rows.size and not splicing.rank_of_run(rows, before, before):
+            rank0, rank1, same_order, sides = 0, rows.size, True, None
+            old = splicing.outer(rows, 0, rows.size)
+            if not shift(rows, start, d_time, d_value):
+                return None
+        elif rows.size <= MOST_RESORTED:
+            if start.resorting is None or start.resorting.keys is not before:
+                start.resorting = Resorting(rows, before)
+            resorting = start.resorting
+            resorted = resorting.moved(d_time, d_value, slack)
+            if resorted is None:
+                return None
+            rank0, rank1, order = resorted
+            old = splicing.outer(rows, rank0, rank1)
+            resorting.store(rows, start, order)
+            before, same_order = resorting.run[rank0:rank1], order is None
+            sides = before, resorting.given(resorted)
+        else:
             return None
         self._changed()
         old_times = float(before["time"][0]), float(before["time"][-1])
-        return splicing.reach(rows, 0, rows.size, old, old_times, self.pre, self.post)
+        t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
+        return Shifted(t0, t1, same_order, sides)
 
     def hold(self) -> None:
         """Keep from now on what splices overwrite, so that `rewind` can bring the keys of this moment back."""

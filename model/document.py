@@ -4,7 +4,20 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Final, Protocol
 
-from model.change import Change, Edit, Membership, Setting, Splice, Touched, check_whole, put, validated
+from model.change import (
+    Change,
+    Edit,
+    Membership,
+    Setting,
+    Shift,
+    Splice,
+    Touched,
+    check_whole,
+    put,
+    shifted,
+    unshifted,
+    validated,
+)
 from model.channel import Channel
 from model.clip import Clip
 from model.event import Event
@@ -161,13 +174,19 @@ class Document:
         self._at_work = True
         stored: list[Change] = []
         try:
-            for change in changes:
-                report(len(stored) / len(changes))
-                stored.append(put(self.clip, validated(change) if new else change, touched, read_back=read_back))
+            for place, change in enumerate(changes):
+                report(place / len(changes))
+                parts: Sequence[Change] = [change]
+                if isinstance(change, Shift):
+                    done = shifted(change, touched)
+                    parts = change.splices() if done is None else []
+                    stored += [] if done is None else [done]
+                for part in parts:
+                    stored.append(put(self.clip, validated(part) if new else part, touched, read_back=read_back))
             if new and (touched.membership or touched.settings):
                 check_whole(self.clip, touched)
         except BaseException:
-            for change in reversed(stored):
+            for change in reversed(unshifted(stored)):
                 put(self.clip, change.inverse(), touched)
             raise
         finally:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from model.change import Change, Edit, Shift, Splice, Touched, differing
+from model.change import Change, Edit, Shift, Splice, Touched, differing, unshifted
 from model.channel import Channel
 from model.clip import Clip
 from model.keyframe import Run
@@ -104,7 +104,7 @@ class Gesture:
     @property
     def changes(self) -> tuple[Change, ...]:
         """The changes of the present preview, with the ids of new keys; slopes by rule are as they were given."""
-        return tuple(change.splice if isinstance(change, Shift) else change for change in self._put)
+        return tuple(unshifted(self._put))
 
     @property
     def covered(self) -> dict[Channel, Run]:
@@ -262,6 +262,7 @@ class Gesture:
     def _stored(self, changes: list[Change], touched: Touched, report: Report) -> list[Change]:
         """Put *changes* in; a new key has the same id in every preview, so that a drag can go on holding it."""
         self._hold(changes)
+        changes = _clear(changes)
         asking = [i for i, change in enumerate(changes) if isinstance(change, Splice) and _asks_for_ids(change.after)]
         used: dict[Channel, int] = {}
         for i in asking:
@@ -284,10 +285,10 @@ class Gesture:
         if not isinstance(change, Splice | Shift):
             return change
         channel, before = change.channel, change.before
-        try:  # a shift has the same keys on both sides
+        try:  # what is shifted as a whole has the same keys on both sides
             return Splice(channel, before, channel.stored(before if isinstance(change, Shift) else change.after))
         except ValueError:
-            return change.splice if isinstance(change, Shift) else change
+            return unshifted([change])[0]
 
     def _with_known_ids(self, splice: Splice, used: dict[Channel, int]) -> Splice:
         known = self._fresh.get(splice.channel)
@@ -314,6 +315,15 @@ class Gesture:
     def _active_now(self) -> Channel | None:
         """The active channel, which the user may have changed meanwhile; the one of the start if it is gone."""
         return self._document.session.active or self._active
+
+
+def _clear(changes: list[Change]) -> list[Change]:
+    """*changes*, with splices for all shifts if a channel is changed twice or a key is new; none is made yet."""
+    if not any(isinstance(change, Shift) for change in changes):
+        return changes
+    channels = [change.channel for change in changes if isinstance(change, Splice | Shift)]
+    new = any(isinstance(change, Splice) and _asks_for_ids(change.after) for change in changes)
+    return list(unshifted(changes)) if new or len(set(channels)) < len(channels) else changes
 
 
 def _asks_for_ids(run: Run) -> bool:

@@ -146,5 +146,10 @@ def strictly_increasing(times: Floats) -> Floats:
 
 def rounding_slack(keys: Run, rows: Run) -> float:
     """How far apart rounding may have put two times that were meant to be equal, when *keys* have become *rows*."""
-    largest = max(abs(float(run["time"][end])) for run in (keys, rows) for end in (0, -1))
+    return slack_at(*(float(run["time"][end]) for run in (keys, rows) for end in (0, -1)))
+
+
+def slack_at(*times: float) -> float:
+    """The same for keys that lie between these times before and after."""
+    largest = max(map(abs, times))
     return 4.0 * ulp(largest) if largest < LARGEST else 0.0

@@ -9,6 +9,7 @@ from model.hermite import Floats
 from model.keyframe import Run
 
 if TYPE_CHECKING:
+    from model.resorting import Resorting
     from model.rows import Rows
     from model.shifting import Shifting
 
@@ -58,7 +59,9 @@ class Start:
         self._spare: Grids | None = None
         self._spare_keys = False  # whether marks and ids of the spare grids are those of the start
         self._keys_moved = False
+        # What is worked out once of those rows, for keys that are moved again and again.
         self.shifting: Shifting | None = None
+        self.resorting: Resorting | None = None
         self.ranks_moved = False  # whether rows hold other numbers of keys now
 
     @property
@@ -130,6 +133,10 @@ class Start:
             twins[1][:], twins[2][:] = rows.mark_grid, rows.id_grid
         self._spare_keys = True
         return twins
+
+    def write_keys(self) -> None:
+        """Marks and ids of twin grids are about to be written."""
+        self._spare_keys = False
 
     def give_back(self, twins: Grids) -> None:
         """Have twin grids again that have not been used."""

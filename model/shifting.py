@@ -11,15 +11,13 @@ import numpy as np
 
 from model.hermite import Floats
 from model.keyframe import TangentRule
+from model.rewinding import Start
 from model.rows import D_TIME, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, Block, C, Rows
 from model.tangents import slope_between, slopes_of
 
 
-def shift(rows: Rows, d_time: float, d_value: float) -> bool:
+def shift(rows: Rows, start: Start, d_time: float, d_value: float) -> bool:
     """Move all keys of the start of a gesture; False, and nothing has changed, if that is left to a splice."""
-    start = rows.start
-    if start is None or start.left or not rows.many:
-        return False
     if start.shifting is None:
         start.shifting = Shifting(rows)
     twins = start.twin_grids(rows)

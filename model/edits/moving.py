@@ -12,13 +12,15 @@ from model.channel import Channel
 from model.clip import Clip
 from model.hermite import LARGEST, Floats
 from model.keyframe import KEY_DTYPE, Run, TangentRule
-from model.placing import placed, rounding_slack, strictly_increasing
+from model.placing import placed, rounding_slack, slack_at, strictly_increasing
 from model.selection import Selection
 
 # Seconds that a key which must not pass its neighbour stays away from it.
 TICK = 1e-9
 # Numbers added to at a time: they stay in the processor's cache.
 AT_A_TIME = 8192
+# Of fewer keys, or of fewer than one among so many others, splices are quicker.
+FEW, SCATTERED = 12, 64
 # A time factor nearer to 0 would put all keys at one time.
 SMALLEST_FACTOR = 1e-6
 
@@ -71,13 +73,24 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
             d_time = _stopped(keys, limit, d_time)
     changes: list[Change] = []
     for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
-        if len(keys) == len(channel):
-            changes.append(Shift(channel, keys, d_time, d_value, partial(_in_order, keys, d_time, d_value, limit)))
+        splices = partial(_spliced, channel, keys, d_time, d_value, limit)
+        if len(keys) < FEW or not reorder or len(channel) > SCATTERED * len(keys):
+            changes += splices()
             continue
-        rows = _in_order(keys, d_time, d_value, limit)
-        slack = rounding_slack(keys, rows) if d_time and reorder else 0.0
-        changes += placed(channel, keys, rows, slack=slack)
+        first, last = float(keys["time"][0]), float(keys["time"][-1])
+        slack = slack_at(first, last, first + d_time, last + d_time) if d_time and len(keys) < len(channel) else 0.0
+        changes.append(Shift(channel, keys, d_time, d_value, slack, splices))
     return changes
+
+
+def _spliced(
+    channel: Channel, keys: Run, d_time: float, d_value: float, limit: tuple[Floats, Floats] | None
+) -> list[Splice]:
+    """The splices that move *keys*, past others unless there is a *limit*."""
+    rows = _in_order(keys, d_time, d_value, limit)
+    if len(keys) == len(channel):
+        return [Splice(channel, keys, rows)]
+    return placed(channel, keys, rows, slack=rounding_slack(keys, rows) if d_time and limit is None else 0.0)
 
 
 def _in_order(keys: Run, d_time: float, d_value: float, limit: tuple[Floats, Floats] | None) -> Run:

@@ -104,7 +104,7 @@ def test_an_error_of_the_other_thread_is_raised_here_and_nothing_has_changed(des
 
     def failing(clip: Clip) -> list[Change]:
         first, second = desk.raised(clip)
-        bad = second.splice
+        (bad,) = second.splices()
         bad.after["value"][7] = np.nan
         return [first, bad]
 

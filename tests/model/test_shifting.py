@@ -1,5 +1,6 @@
 """All keys moved at once: the short way and the splice give the same bytes."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -7,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model import edits, rows
-from model.change import Shift
+from model import edits, placing, rows
+from model.change import Shift, Splice, unshifted
 from model.channel import Channel
 from model.clip import Clip
 from model.document import Document
@@ -29,15 +30,17 @@ EDGES = np.linspace(-5.0, 80.0, 40)
 def short_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     for name, size in (("WIDEST", 8), ("FILLED", 6), ("AT_A_TIME", 2), ("MANY_ROWS", 2)):
         monkeypatch.setattr(rows, name, size)
+    monkeypatch.setattr(placing, "FEW", 2)
+    monkeypatch.setattr(placing, "FEW_EACH", 2)
 
 
-def channel_of(seed: int, n: int, kinds: int, scale: float) -> Channel:
+def channel_of(seed: int, n: int, kinds: int, scale: float, *, even: bool = False) -> Channel:
     """Keys by one or more rules, uneven rows, values on both sides of 0 and at both zeros."""
     chance = np.random.default_rng(seed)
     rules_out = chance.choice(chance.permutation(RULES)[:kinds], n)
     rules_in = np.where(rules_out == TangentRule.STEP, TangentRule.AUTO, rules_out)
     values = chance.normal(size=n).clip(-2.0, 2.0) * scale * chance.choice([0.0, -0.0, 1.0, 1.0], n)
-    times = np.cumsum(chance.uniform(0.01, 1.0, n)) - 2.0
+    times = (np.full(n, 0.25) if even else chance.uniform(0.01, 1.0, n)).cumsum() - 2.0
     slopes = chance.normal(size=(2, n)).clip(-2.0, 2.0) * scale
     modes = chance.choice(list(Extrapolation), 2)
     channel = Channel("x", make_run(times, values, *slopes, rules_in, rules_out), pre=modes[0], post=modes[1])
@@ -118,3 +121,73 @@ def test_slopes_too_steep_for_a_double_are_those_of_the_rule() -> None:
         gesture.preview(lambda clip: edits.move(clip, chosen, 0.0, 1.0))
         channel.check()
         assert np.isfinite(channel.run()["slope_in"]).all()
+
+
+@pytest.mark.usefixtures("short_rows")
+@settings(max_examples=200, deadline=None)
+@given(
+    st.integers(0, 10**6),
+    st.integers(30, 120),
+    st.integers(1, 3),
+    st.sampled_from([1.0, 1.0, 1e-310, 8e307]),
+    st.booleans(),
+    st.lists(
+        st.tuples(st.one_of(NUMBERS, st.integers(-40, 40).map(lambda i: i / 4)), NUMBERS, st.booleans(), st.booleans()),
+        min_size=1,
+        max_size=5,
+    ),
+)
+def test_every_step_of_a_drag_of_some_keys_is_what_splices_make(
+    seed: int, n: int, kinds: int, scale: float, even: bool, steps: list[tuple[float, float, bool, bool]]
+) -> None:
+    channel, twin = channels = [channel_of(seed, n, kinds, scale, even=even) for _ in range(2)]
+    start = all_bytes(channel)
+    picked = np.random.default_rng(seed).choice(channel.run()["id"], 13 + seed % (n // 3), replace=False)
+    chosen = [[Selection.of({each: ids}) for each in channels] for ids in (picked, picked[1:])]
+    documents = [Document(Clip([each])) for each in channels]
+    gestures = [document.begin("Drag") for document in documents]
+    far = make_run([1e9])
+    for d_time, d_value, fewer, one_more in steps:
+        for gesture, each, keys, expanded in zip(gestures, channels, chosen[fewer], (list, unshifted), strict=True):
+            new = [Splice(each, far[:0], far)] if one_more and abs(d_time) < 1e3 else []
+            moved = partial(edits.move, selection=keys, d_time=d_time, d_value=d_value)
+            gesture.preview(lambda clip, m=moved, e=expanded, s=new: [*e(m(clip)), *s])
+        assert all_bytes(channel) == all_bytes(twin)
+        assert gestures[0].keeps_keys == gestures[1].keeps_keys
+        assert gestures[0].keys_fewer == gestures[1].keys_fewer
+        covered = [[run.tobytes() for run in gesture.covered.values()] for gesture in gestures]
+        assert covered[0] == covered[1]
+        assert documents[0].session.selection.ids(channel).tolist() == documents[1].session.selection.ids(twin).tolist()
+    made = [gesture.commit() for gesture in gestures]
+    assert (made[0] is None) == (made[1] is None)
+    assert all_bytes(channel) == all_bytes(twin)
+    if made[0] is not None:
+        shown = all_bytes(channel)
+        documents[0].apply(made[0].inverse())
+        assert all_bytes(channel) == start
+        documents[0].apply(made[0])
+        assert all_bytes(channel) == shown
+
+
+def test_keys_that_pass_others_take_the_short_way_and_those_that_land_on_others_do_not() -> None:
+    channel = Channel("x", make_run(np.arange(100.0), np.sin(np.arange(100.0))))
+    document, chosen = Document(Clip([channel])), Selection.of({channel: np.arange(10, 90, 4)})
+    with document.begin("Drag") as gesture:
+        for d_time, shifts in ((0.5, 1), (7.5, 1), (0.0, 1), (1.0, 0), (-40.25, 1)):
+            gesture.preview(lambda clip, t=d_time: edits.move(clip, chosen, t, 1.0))
+            start = channel._rows.start
+            assert start is not None
+            assert (start._whole is not None) == shifts, d_time
+            assert gesture.keys_fewer == (0 if shifts else 20)
+            channel.check()
+
+
+def test_keys_that_only_rounding_keeps_apart_from_others_land_on_them() -> None:
+    times = np.arange(200) * 0.1
+    apart = np.flatnonzero(times[:-3] + 0.3 != times[3:])
+    channel = Channel("x", make_run(times, np.sin(times)))
+    document, chosen = Document(Clip([channel])), Selection.of({channel: apart[np.diff(apart, append=0) != 3] + 1})
+    with document.begin("Drag") as gesture:
+        gesture.preview(lambda clip: edits.move(clip, chosen, 0.3, 1.0))
+        assert chosen.count > 20
+        assert gesture.keys_fewer > 20
