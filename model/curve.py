@@ -267,8 +267,10 @@ class Curve:
         array = np.asarray(edges, np.float64)
         if len(self) == 0:
             return np.zeros(max(len(array) - 1, 0)), np.zeros(max(len(array) - 1, 0))
-        if self._extremes is None or self._extremes.numbers is not self._rows.numbers:
+        if self._extremes is None or self._extremes.shape != self._rows.number_grid.shape:
             self._extremes = extremes.Extremes(self._rows)
+        elif self._extremes.numbers is not self._rows.numbers:
+            self._extremes.begin(self._rows)
         return envelope.envelope(self._rows, self._extremes, self._the_ends(), array, self.pre, self.post)
 
 

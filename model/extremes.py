@@ -32,13 +32,19 @@ class Extremes:
     """
 
     def __init__(self, rows: Rows) -> None:
-        self.numbers = rows.numbers
+        self.shape = rows.number_grid.shape
         self.block = min(BLOCK, rows.width)
         self.each = len(rows.ids) <= EACH
         self.low, self.high = np.empty((2, len(rows.ids)))
         self.block_low, self.block_high = np.empty((2, len(rows.ids) // self.block))
         self.known = np.zeros(len(self.block_low), np.bool_)  # the blocks whose spans are worked out too
         self._room = np.empty((3, min(rows.rows, AT_A_TIME) * rows.width))
+        self.begin(rows)
+
+    def begin(self, rows: Rows) -> None:
+        """Forget everything: these are other rows, of the same shape."""
+        self.numbers = rows.numbers
+        self.known[:] = False
         rows.dirty = set(range(rows.rows))
 
     def refresh(self, rows: Rows, slot0: int, slot1: int) -> None:
