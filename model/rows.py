@@ -11,11 +11,11 @@ of rules: whoever stores keys here works out slopes and coefficients afterwards 
 """
 
 from bisect import bisect_right
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from model.blocks import Block, blocks_of
 from model.hermite import Floats
 from model.keyframe import KEY_DTYPE, KeyGoneError, Run
 from model.rewinding import Grids, Start
@@ -37,17 +37,6 @@ AT_A_TIME = 32
 MOST_KNOWN = 32
 # Where all keys of at least so many rows are replaced in a gesture, others are written rather than these copied.
 MANY_ROWS = 64
-
-
-class Block(NamedTuple):
-    """Keys in the same places of neighbouring rows that hold equally many."""
-
-    rank: int  # of its first key
-    row: int
-    rows: int
-    place: int  # of its first key in the row; 0 if there is more than one row
-    width: int  # keys of each row that belong to the block
-    held: int  # keys that each of the rows holds
 
 
 class Rows:
@@ -186,31 +175,8 @@ class Rows:
         if known is None:
             if len(self.blocks_known) >= MOST_KNOWN:
                 self.blocks_known.clear()
-            known = self.blocks_known[rank0, rank1] = self._blocks(rank0, rank1)
+            known = self.blocks_known[rank0, rank1] = blocks_of(self, rank0, rank1, AT_A_TIME)
         return known
-
-    def _blocks(self, rank0: int, rank1: int) -> list[Block]:
-        if rank0 >= rank1:
-            return []
-        row, place = self.place(rank0)
-        held = self.held(row)
-        if place + rank1 - rank0 <= held:
-            return [Block(rank0, row, 1, place, rank1 - rank0, held)]
-        blocks: list[Block] = []
-        if place:
-            blocks.append(Block(rank0, row, 1, place, held - place, held))
-            rank0, row = rank0 + held - place, row + 1
-        last, end = self.place(rank1 - 1)
-        whole = last + 1 if end + 1 == self.held(last) else last
-        firsts = self.first[row : whole + 1].tolist()
-        begin, held = 0, firsts[1] - firsts[0] if whole > row else 0
-        for at in range(1, len(firsts)):
-            if at + 1 == len(firsts) or firsts[at + 1] - firsts[at] != held or at - begin == AT_A_TIME:
-                blocks.append(Block(firsts[begin], row + begin, at - begin, 0, held, held))
-                begin, held = at, firsts[min(at + 1, len(firsts) - 1)] - firsts[at]
-        if whole == last:
-            blocks.append(Block(firsts[-1], last, 1, 0, end + 1, self.held(last)))
-        return blocks
 
     def cuts(self, rank0: int, rank1: int) -> list[int]:
         """*rank0*, *rank1* (later), and between them the first ranks of rows that are AT_A_TIME rows apart."""

@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.blocks import Block
 from model.hermite import Floats
 from model.keyframe import TangentRule
 from model.rewinding import Start
-from model.rows import D_TIME, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, Block, C, Rows
+from model.rows import D_TIME, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, C, Rows
 from model.tangents import slope_between, slopes_of
 
 
