@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from model import evaluation, hermite
 from model.hermite import Floats
-from model.rows import AT_A_TIME, VALUE, A, B, C, Rows, Slots
+from model.rows import VALUE, A, B, C, Rows, Slots
 
 BLOCK = 64
+# Rows handled at a time: a few of their columns stay in the processor's cache.
+AT_A_TIME = 64
 # Up to so many spans, those between two pairs of ends and behind the last included, one pass is quicker than blocks.
 DIRECT = 20_000
 # Up to so many spans all are worked out at once; of more, the columns of a picture begin and end among few.
