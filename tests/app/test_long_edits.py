@@ -2,6 +2,8 @@
 
 import threading
 from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +17,7 @@ import model.document
 from app.main_window import MainWindow
 from app.progress_row import PATIENCE_MILLISECONDS
 from model import edits
-from model.change import Change, Touched, put
+from model.change import Change, put, shifted
 from model.channel import Channel
 from model.clip import Clip
 from model.clipboard import text_from_keys
@@ -37,16 +39,17 @@ class Gate:
         self._open = threading.Event()
         self.threads: list[threading.Thread] = []
         self.fail = False
-        monkeypatch.setattr(model.document, "put", self._put)
+        monkeypatch.setattr(model.document, "put", partial(self._held_up, put))
+        monkeypatch.setattr(model.document, "shifted", partial(self._held_up, shifted))
 
-    def _put(self, clip: Clip, change: Change, touched: Touched, *, read_back: bool = True) -> Change:
+    def _held_up(self, make: Callable[..., Change | None], *args: Any, **settings: Any) -> Change | None:
         self.threads.append(threading.current_thread())
         if self.fail and threading.current_thread() is not threading.main_thread():
             raise ValueError("it cannot be")
-        stored = put(clip, change, touched, read_back=read_back)
-        if threading.current_thread() is not threading.main_thread():
+        made = make(*args, **settings)
+        if made is not None and threading.current_thread() is not threading.main_thread():
             self._open.wait(20)
-        return stored
+        return made
 
     def open(self) -> None:
         self._open.set()
