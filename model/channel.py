@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model import checking, evaluation, splicing, within
+from model import checking, evaluation, picking, splicing, within
 from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
@@ -176,7 +176,7 @@ class Channel(Curve):
 
     def _keys_of(self, ids: Iterable[int]) -> Run:
         if isinstance(ids, np.ndarray) and 8 <= len(ids) < len(self) // SPARSE:
-            few = self._rows.keys_at(self._rows.slots_of(ids))
+            few = picking.keys_at(self._rows, picking.slots_of(self._rows, ids))
             few.flags.writeable = False
             return few
         ranks = self._ranks(ids)

@@ -240,6 +240,9 @@ class Curve:
 
     def spans_between(self, t0: float, t1: float) -> Spans:
         """The spans that touch [t0, t1]."""
+        ends = self.ends()
+        if ends is not None and t0 < ends.time0 and ends.time1 < t1:
+            return self._spans(0, len(self) - 1)
         rank0 = max(self._rows.rank_at(t0, after=False) - 1, 0)
         rank1 = min(self._rows.rank_at(t1), len(self) - 1)
         return self._spans(rank0, rank1) if rank1 > rank0 else Spans(*np.empty((6, 0)))

@@ -149,18 +149,6 @@ class Rows:
         in_row, at = np.nonzero(chosen)
         return np.asarray(self.first[touched[in_row]] + at, np.int64)
 
-    def slots_of(self, ids: NDArray[np.int64]) -> Slots:
-        """Slots that hold or repeat the keys with these ids, in order; KeyGoneError if one is gone."""
-        known = (ids > 0) & (ids < len(self.row_of))
-        rows = self.row_of[ids] if known.all() else np.where(known, self.row_of[np.where(known, ids, 0)], -1)
-        if (rows < 0).any():
-            raise KeyGoneError(f"there is no key with id {ids[int((rows < 0).argmax())]}")
-        touched = np.arange(self.rows) if self.rows < 8 else np.flatnonzero(np.bincount(rows))
-        # Only the places of keys in these rows are ever written and read.
-        slot_of = np.empty(len(self.row_of), np.int64)
-        slot_of[self.id_grid[touched]] = touched[:, None] * self.width + np.arange(self.width)
-        return np.sort(slot_of[ids])
-
     def rank_at(self, time: float, *, after: bool = True) -> int:
         """How many keys lie at or before *time* (before it only, if not *after*)."""
         if self.size == 0:
@@ -212,16 +200,6 @@ class Rows:
             for field, column in MARK_FIELDS:
                 part[field] = self.mark_grid[column][at]
             part["id"] = self.id_grid[at]
-        return run
-
-    def keys_at(self, slots: Slots) -> Run:
-        """The keys that these slots hold or repeat."""
-        run = np.empty(len(slots), KEY_DTYPE)
-        for field, column in NUMBER_FIELDS:
-            run[field] = self.numbers[column].take(slots)
-        for field, column in MARK_FIELDS:
-            run[field] = self.marks[column].take(slots)
-        run["id"] = self.ids.take(slots)
         return run
 
     def ids_between(self, rank0: int, rank1: int) -> NDArray[np.int64]:

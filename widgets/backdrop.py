@@ -22,8 +22,6 @@ QUICK: Final = 0.006
 LONG: Final = 0.07
 # How long one slice of a slow picture may hold up the mouse.
 SLICE: Final = 0.005
-# Traces drawn between two looks at the clock; together they are quicker.
-AT_ONCE: Final = 10
 # A picture scaled further than this tells nothing.
 MOST_SCALED: Final = 40.0
 
@@ -88,7 +86,7 @@ def _jobs(stage: Stage, traces: Sequence[Trace]) -> Iterator[Callable[[QPainter]
         if layer.plane is Plane.GROUND:
             yield lambda painter, draw=layer.draw: draw(painter, stage, (), left, right)  # type: ignore[misc]
         elif layer.plane is Plane.RESTING:
-            for few in batched(traces, AT_ONCE):
+            for few in batched(traces, layer.together):
                 yield lambda painter, draw=layer.draw, few=few: draw(painter, stage, few, left, right)  # type: ignore[misc]
 
 

@@ -112,6 +112,23 @@ def test_runs_and_keys_of_ids(n: int) -> None:
     assert len(channel.run_of([])) == len(channel.keys_of([])) == 0
 
 
+@pytest.mark.parametrize("n", [100, 2000, 9000])
+def test_few_keys_among_many_are_read_as_they_are_and_missed_when_gone(n: int) -> None:
+    channel = Channel("x", random_run(4, n))
+    for gone in (0, 383, n // 2):  # so that rows have spare slots
+        some = channel.run()[gone : gone + 7]
+        channel.splice(some, some[:0])
+    run, random = channel.run(), np.random.default_rng(n)
+    last_of_rows = np.flatnonzero(np.diff(run["id"]) > 1)
+    for count in (8, n // 5):
+        places = np.union1d(random.choice(len(run), count, replace=False), last_of_rows[:3])
+        wanted = random.permutation(run["id"][places])
+        assert channel.keys_of(wanted).tobytes() == run[places].tobytes()
+        for stranger in (0, -3, 1, 10 * n):
+            with pytest.raises(KeyGoneError):
+                channel.keys_of(np.append(wanted, stranger))
+
+
 @pytest.mark.parametrize("n", [1, 2, 3, 2000])
 def test_keys_around_one_are_its_neighbours_and_it(n: int) -> None:
     channel = Channel("c", make_run(np.arange(n), 0.0))

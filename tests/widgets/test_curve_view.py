@@ -12,8 +12,7 @@ from model import edits
 from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
-from model.keyframe import Run, TangentRule, make_run
-from model.sampling import Window
+from model.keyframe import TangentRule, make_run
 from model.selection import Selection
 from tests.widgets.screens import Screen, sample_clip, view_of
 from widgets.backdrop import Backdrop
@@ -22,7 +21,7 @@ from widgets.guard import unguarded
 from widgets.hit_test import hit_all
 from widgets.layers import LAYERS
 from widgets.layers.handles import LENGTH
-from widgets.layers.keys import CELL, MOST_SELECTED, SHAPES, one_a_cell
+from widgets.layers.keys import SHAPES
 from widgets.view_range import ViewRange
 
 type Make = Callable[..., CurveView]
@@ -363,41 +362,3 @@ def test_a_new_unit_is_at_once_that_of_ruler_and_grid(qtbot: QtBot) -> None:
     view.document.do("Unit", lambda clip: edits.set_setting(clip, clip.channels, "unit", "angle"))
     assert (screen.shown() == screen.painted_anew()).all()
     assert "90°" in view.canvas.stage(1.0).value_ticks.labels
-
-
-def test_among_very_many_selected_keys_none_is_far_from_a_mark(make: Make) -> None:
-    n = 3 * MOST_SELECTED
-    values = np.random.default_rng(1).normal(size=n)
-    channel = Channel("c", make_run(np.arange(n) / 100, values))
-    view = make(Clip([channel]))
-    view.frame_all()
-    stage, run = view.canvas.stage(1.0), channel.run()
-    kept = run[one_a_cell(run, stage)]
-    assert len(kept) < n / 2
-    window = stage.window
-    marked = np.zeros((int(window.width) // 3 + 9, int(window.height) // 3 + 9), np.bool_)
-    marked[cells_of(kept, window)] = True
-    assert marked[cells_of(run, window)].all()
-
-
-def cells_of(run: Run, window: Window) -> tuple[np.ndarray, np.ndarray]:
-    column = np.floor(run["time"] * (window.px_per_second / CELL)) - np.floor(window.t0 * window.px_per_second / CELL)
-    row = np.floor((window.y_from_value(run["value"]) - window.top) / CELL)
-    return column.astype(np.intp) + 1, row.astype(np.intp) + 1
-
-
-def test_strips_of_very_many_selected_keys_meet_the_rest(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("widgets.layers.keys.MOST_SELECTED", 50)
-    rng = np.random.default_rng(2)
-    channel = Channel("c", make_run(np.arange(3000) / 100, rng.normal(size=3000)))
-    view = view_of(Clip([channel]))
-    qtbot.addWidget(view)
-    screen = Screen(view)
-    view.document.session.selection = Selection.of_all([channel])
-    screen.shown()
-    middle = Selection.of({channel: channel.run()["id"][1500:1501]})
-    gesture = view.document.begin("Move")
-    for step in (0.3, -0.8, 1.9):
-        gesture.preview(lambda clip, step=step: edits.move(clip, middle, 0.0, step))
-        assert (screen.shown() == screen.painted_anew()).all()
-    gesture.cancel()

@@ -27,12 +27,14 @@ class Layer(NamedTuple):
     name: str
     plane: Plane
     draw: Draw
+    # Of a resting layer: how many traces are drawn between two looks at the clock; together they are quicker.
+    together: int = 10
 
 
 LAYERS: Final = (
     Layer("ground", Plane.GROUND, grid.draw_ground),
     Layer("grid", Plane.GROUND, grid.draw_grid),
-    Layer("resting extrapolation", Plane.RESTING, extrapolation.draw_extrapolation),
+    Layer("resting extrapolation", Plane.RESTING, extrapolation.draw_extrapolation, together=50),
     Layer("resting curves", Plane.RESTING, curves.draw_curves),
     Layer("resting keys", Plane.RESTING, keys.draw_keys),
     Layer("live extrapolation", Plane.LIVE, extrapolation.draw_extrapolation),
