@@ -12,7 +12,7 @@ from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation, periods
 from model.extremes import Extremes, Range, turns_of
 from model.hermite import LARGEST, Floats
 from model.keyframe import TangentRule
-from model.rows import RULE_OUT, TIME, Rows, Slots
+from model.rows import D_TIME, RULE_OUT, VALUE, A, Rows, Slots
 
 
 class Points(NamedTuple):
@@ -35,10 +35,11 @@ class Points(NamedTuple):
 
 def _points(rows: Rows, times: Floats) -> Points:
     slots = np.maximum(rows.times.searchsorted(times, "right") - 1, 0)
-    turns, turn_values = turns_of(rows, slots)
-    _, keys, _, _, a, b, c, d_times = numbers = rows.numbers.take(slots, axis=1)
+    key_times, keys = rows.numbers[: VALUE + 1].take(slots, axis=1)
+    a, b, c, d_times = numbers = rows.numbers[A : D_TIME + 1].take(slots, axis=1)
+    turns, turn_values = turns_of(rows, slots, numbers[:3], keys)
     with np.errstate(all="ignore"):
-        u = (times - numbers[TIME]) / d_times
+        u = (times - key_times) / d_times
         values = a * u
         values += b
         values *= u
@@ -66,8 +67,8 @@ def _ranges(rows: Rows, extremes: Extremes, begins: Points, ends: Points) -> Ran
         seen = (points.turns > behind) & (points.turns < before)
         if seen.any():
             values = points.turn_values
-            low = np.minimum(low, np.where(seen, values, np.inf).min(axis=0))
-            high = np.maximum(high, np.where(seen, values, -np.inf).max(axis=0))
+            low = np.minimum(low, np.minimum.reduce(np.where(seen, values, np.inf)))
+            high = np.maximum(high, np.maximum.reduce(np.where(seen, values, -np.inf)))
     key = np.where(one_span, low, ends.key_value)
     low, high = np.minimum(low, key), np.maximum(high, key)
     if len(one_span) and not one_span.all():

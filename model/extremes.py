@@ -5,6 +5,7 @@ adds nothing to that range, and so its turns need not be worked out.
 """
 
 from itertools import batched
+from math import inf, nan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +15,16 @@ from model.hermite import Floats
 from model.rows import VALUE, A, B, C, Rows, Slots
 
 BLOCK = 64
+# What is left of a block at the end of a column is read in smaller ones.
+FINE = 8
 # Rows handled at a time: a few of their columns stay in the processor's cache.
 AT_A_TIME = 64
 # Up to so many spans, those between two pairs of ends and behind the last included, one pass is quicker than blocks.
 DIRECT = 20_000
 # Up to so many spans all are worked out at once; of more, the columns of a picture begin and end among few.
 EACH = 1 << 18
+# Of up to so many rows all spans are worked out at once too: that takes no longer than to look for those that count.
+FEW = 4
 # What rounding may do to a turn: as a share of the largest value, of that and the range together, and at least.
 ROUNDING, NEAR, LEAST = 1e-12, 2e-6, 1e-300
 
@@ -37,7 +42,11 @@ class Extremes:
         self.shape = rows.number_grid.shape
         self.block = min(BLOCK, rows.width)
         self.each = len(rows.ids) <= EACH
-        self.low, self.high = np.empty((2, len(rows.ids)))
+        self.fine = min(FINE, self.block)
+        n = len(rows.ids)
+        # Behind the spans the small blocks, so that both are found in one pass.
+        self._lows, self._highs = both = np.empty((2, n + n // self.fine))
+        (self.low, self.high), (self.fine_low, self.fine_high) = both[:, :n], both[:, n:]
         self.block_low, self.block_high = np.empty((2, len(rows.ids) // self.block))
         self.known = np.zeros(len(self.block_low), np.bool_)  # the blocks whose spans are worked out too
         self._room = np.empty((3, min(rows.rows, AT_A_TIME) * rows.width))
@@ -54,7 +63,7 @@ class Extremes:
         row0, row1 = slot0 // rows.width, slot1 // rows.width + 1
         stale = sorted(rows.dirty.intersection(range(row0, row1)) if len(rows.dirty) > 1 else rows.dirty)
         parts = [np.array(few) for few in batched(stale, AT_A_TIME)]
-        if self.each:
+        if self.each or len(stale) <= FEW:
             for some in parts:
                 self._measure(rows, some)
         elif parts:
@@ -66,14 +75,19 @@ class Extremes:
     def _measure(self, rows: Rows, some: Slots) -> None:
         """Work out the ranges of all spans of some rows, and of their blocks."""
         low, high = self._measure_spans(rows, some, rows.width)
-        in_blocks, blocks = (len(some), -1, self.block), (-1, rows.width // self.block)
+        in_blocks, blocks = (len(some), -1, self.block // self.fine), (-1, rows.width // self.block)
         self.block_low.reshape(blocks)[some] = low.reshape(in_blocks).min(axis=2)
         self.block_high.reshape(blocks)[some] = high.reshape(in_blocks).max(axis=2)
+        self.known.reshape(blocks)[some] = True
 
     def _measure_spans(self, rows: Rows, some: Slots, size: int) -> Range:
-        """Work out the ranges of the spans in some lines of *size* slots."""
+        """Work out the ranges of the spans in some lines of *size* slots, and of their small blocks; give these."""
         low, high = _span_ranges(rows, some, size)
         self.low.reshape(-1, size)[some], self.high.reshape(-1, size)[some] = low, high
+        begins, shape = np.arange(0, low.size, self.fine), (-1, size // self.fine)
+        low = np.minimum.reduceat(low.reshape(-1), begins).reshape(shape)
+        high = np.maximum.reduceat(high.reshape(-1), begins).reshape(shape)
+        self.fine_low.reshape(shape)[some], self.fine_high.reshape(shape)[some] = low, high
         return low, high
 
     def _measure_keys(self, rows: Rows, some: Slots) -> Slots:
@@ -107,42 +121,67 @@ class Extremes:
 
     def between(self, rows: Rows, starts: Slots, ends: Slots) -> Range:
         """The ranges over the slots from *starts* up to before *ends*, pair by pair; (inf, -inf) over none."""
-        cuts = np.minimum(np.stack([starts, ends], axis=1).reshape(-1), len(rows.ids) - 1)
-        passed = int(np.maximum(cuts[1:] - cuts[:-1], 0).sum())
-        if self.each and passed + len(self.low) <= DIRECT:
-            low, high = np.minimum.reduceat(self.low, cuts)[::2], np.maximum.reduceat(self.high, cuts)[::2]
-            none = starts >= ends
-            low[none], high[none] = np.inf, -np.inf
-            return low, high
+        if self.each:
+            cuts = np.minimum(np.stack([starts, ends], axis=1).reshape(-1), len(rows.ids) - 1)
+            passed = int(np.maximum(cuts[1:] - cuts[:-1], 0).sum())
+            if passed + len(self.low) <= DIRECT:
+                low, high = np.minimum.reduceat(self.low, cuts)[::2], np.maximum.reduceat(self.high, cuts)[::2]
+                none = starts >= ends
+                low[none], high[none] = inf, -inf
+                return low, high
         size = self.block
         first, last = -(-starts // size), ends // size
-        low, high = np.full(len(starts), np.inf), np.full(len(starts), -np.inf)
-        (whole,) = (first < last).nonzero()
-        if len(whole):
-            cuts = np.stack([first[whole], last[whole]], axis=1).reshape(-1)
-            low[whole] = np.minimum.reduceat(self.block_low, cuts)[::2]
-            high[whole] = np.maximum.reduceat(self.block_high, cuts)[::2]
+        cuts = np.empty((len(starts), 2), np.int64)
+        np.minimum(first, len(self.block_low) - 1, out=cuts[:, 0])
+        np.minimum(last, len(self.block_low) - 1, out=cuts[:, 1])
+        cuts = cuts.reshape(-1)
+        low, high = np.minimum.reduceat(self.block_low, cuts)[::2], np.maximum.reduceat(self.block_high, cuts)[::2]
+        none = first >= last
+        if none.any():
+            low[none], high[none] = inf, -inf
         # What is left at both ends is shorter than a block, and adds nothing where all of its block lies within.
-        for begin, end in ((starts, np.minimum(ends, first * size)), (np.maximum(starts, last * size), ends)):
-            block = np.minimum(begin // size, len(self.block_low) - 1)
-            outside = (self.block_low.take(block) < low) | (self.block_high.take(block) > high)
-            (some,) = ((begin < end) & outside).nonzero()
-            if len(some):
-                self._know(rows, block.take(some))
-                begins = begin.take(some)
-                counts = end.take(some) - begins
-                firsts = counts.cumsum() - counts
-                slots = (begins - firsts).repeat(counts)
-                slots += np.arange(len(slots))
-                low[some] = np.minimum(low.take(some), np.minimum.reduceat(self.low.take(slots), firsts))
-                high[some] = np.maximum(high.take(some), np.maximum.reduceat(self.high.take(slots), firsts))
+        begin = np.concatenate([starts, np.maximum(starts, last * size)])
+        end = np.concatenate([np.minimum(ends, first * size), ends])
+        block = np.minimum(begin // size, len(self.block_low) - 1)
+        outside = (self.block_low.take(block).reshape(2, -1) < low) | (
+            self.block_high.take(block).reshape(2, -1) > high
+        )
+        (some,) = ((begin < end) & outside.reshape(-1)).nonzero()
+        if len(some):
+            self._know(rows, block.take(some))
+            left = self._within_blocks(begin.take(some), end.take(some))
+            lows, highs = np.full((2, len(starts)), inf), np.full((2, len(starts)), -inf)
+            lows.reshape(-1)[some], highs.reshape(-1)[some] = left
+            low, high = np.minimum(low, lows, out=lows), np.maximum(high, highs, out=highs)
+            return np.minimum(low[0], low[1]), np.maximum(high[0], high[1])
         return low, high
+
+    def _within_blocks(self, begins: Slots, ends: Slots) -> Range:
+        """The ranges over the slots from *begins* up to before *ends*, which lie within known blocks, one at least."""
+        fine0, fine1 = -(-begins // self.fine), ends // self.fine
+        # Spans up to the first whole small block, such blocks, and the spans behind them.
+        runs = np.empty((len(begins), 3), np.int64)
+        counts = np.empty_like(runs)
+        runs[:, 0], runs[:, 1] = begins, fine0 + len(self.low)
+        behind = np.minimum(fine0 * self.fine, ends)
+        np.subtract(behind, begins, out=counts[:, 0])
+        np.maximum(fine1 - fine0, 0, out=counts[:, 1])
+        np.maximum(behind, fine1 * self.fine, out=runs[:, 2])
+        np.subtract(ends, runs[:, 2], out=counts[:, 2])
+        lengths = counts.reshape(-1)
+        firsts = lengths.cumsum() - lengths
+        places = (runs.reshape(-1) - firsts).repeat(lengths)
+        places += np.arange(len(places))
+        firsts = firsts[::3]
+        lows, highs = self._lows.take(places), self._highs.take(places)
+        return np.minimum.reduceat(lows, firsts), np.maximum.reduceat(highs, firsts)
 
     def _know(self, rows: Rows, blocks: Slots) -> None:
         """Have the ranges of all spans of these blocks."""
-        if self.each:
+        wanted = blocks[~self.known.take(blocks)]
+        if not len(wanted):
             return
-        wanted = np.unique(blocks[~self.known[blocks]])
+        wanted = np.unique(wanted)
         for some in np.array_split(wanted, len(wanted) * self.block // (AT_A_TIME * rows.width) + 1):
             self._measure_spans(rows, some, self.block)
         self.known[wanted] = True
@@ -181,39 +220,53 @@ def _may_turn(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
 
 def _span_ranges(rows: Rows, some: Slots, size: int) -> Range:
     """The ranges over the first keys and the turns of the spans of *some* lines of *size* slots: (lines, size)."""
-    a, b, c, d = (rows.numbers[column].reshape(-1, size).take(some, axis=0) for column in (A, B, C, VALUE))
+    abc = rows.numbers[A : C + 1].reshape(3, -1, size).take(some, axis=1).reshape(3, -1)
+    d = rows.numbers[VALUE].reshape(-1, size).take(some, axis=0)
+    turning = _may_turn(*abc)
+    turns = int(np.count_nonzero(turning))
     low, high = d, d.copy()
-    (turns,) = _may_turn(a, b, c).reshape(-1).nonzero()
-    if len(turns):
-        line, place = np.divmod(turns, size)
+    if 2 * turns > d.size:
+        # To pick most of them takes longer than to work out all.
+        slots = (some * size)[:, None] + np.arange(size)
+        values = turns_of(rows, slots.reshape(-1), abc, d.reshape(-1))[1]
+        np.copyto(values, nan, where=~turning)
+        np.fmax(high, np.fmax(values[0], values[1]).reshape(d.shape), out=high)
+        np.fmin(low, np.fmin(values[0], values[1]).reshape(d.shape), out=low)
+    elif turns:
+        (places,) = turning.nonzero()
+        line, place = np.divmod(places, size)
         values = turns_of(rows, some.take(line) * size + place)[1]
         flat_low, flat_high = low.reshape(-1), high.reshape(-1)
-        flat_low[turns] = np.fmin(flat_low.take(turns), np.fmin(values[0], values[1]))
-        flat_high[turns] = np.fmax(flat_high.take(turns), np.fmax(values[0], values[1]))
+        flat_low[places] = np.fmin(flat_low.take(places), np.fmin(values[0], values[1]))
+        flat_high[places] = np.fmax(flat_high.take(places), np.fmax(values[0], values[1]))
     return low, high
 
 
-def turns_of(rows: Rows, slots: Slots) -> Range:
-    """(u, value) where the spans of these slots turn, each (2, n); NaN where they do not."""
-    abc, d = rows.numbers[A : C + 1].take(slots, axis=1), rows.numbers[VALUE].take(slots)
+def turns_of(rows: Rows, slots: Slots, abc: Floats | None = None, d: Floats | None = None) -> Range:
+    """(u, value) where the spans of these slots turn, each (2, n); NaN where they do not.
+
+    *abc* and *d* are their coefficients, if they have been read.
+    """
+    if abc is None or d is None:
+        abc, d = rows.numbers[A : C + 1].take(slots, axis=1), rows.numbers[VALUE].take(slots)
     places = np.empty((2, len(slots)))
     with np.errstate(all="ignore"):
         # Scaled to size one, so that squares neither overflow nor vanish.
-        size = np.abs(abc).max(axis=0)
+        size = np.maximum.reduce(np.abs(abc))
         a, b, c = abc / np.where((size > 0.0) & (size < np.inf), size, 1.0)
         a *= 3.0
         # a u^2 + 2 b u + c = 0, by the form without cancellation.
         q = -(b + np.copysign(np.sqrt(b * b - a * c), b))
         np.divide(c, q, out=places[0])
         np.divide(q, a, out=places[1])
-        places[(places <= 0.0) | (places >= 1.0)] = np.nan
+        np.copyto(places, nan, where=(places <= 0.0) | (places >= 1.0))
         values = places * abc[0]
         values += abc[1]
         values *= places
         values += abc[2]
         values *= places
         values += d
-        wild = ~np.isfinite(size) | np.isinf(values).any(axis=0)
+        wild = ~np.isfinite(size) | np.logical_or.reduce(np.isinf(values))
     if wild.any():
         spans, _ = evaluation.scaled_spans(rows, rows.real(slots[wild]))
         places[:, wild] = hermite.extremum_places(spans.a, spans.b, spans.c)

@@ -1,14 +1,19 @@
 """Few spans worked out give exactly the ranges that all of them do."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model import extremes, rows
+from model import edits, extremes, rows
 from model.channel import Channel
+from model.clip import Clip
+from model.document import Document
 from model.hermite import Floats
 from model.keyframe import TangentRule, make_run
+from model.selection import Selection
 
 VALUES = [
     lambda chance, n: chance.normal(size=n).cumsum(),
@@ -28,7 +33,8 @@ def short_rows(monkeypatch: pytest.MonkeyPatch) -> None:
         (rows, "WIDEST", 16),
         (rows, "FILLED", 11),
         (extremes, "AT_A_TIME", 3),
-        (extremes, "BLOCK", 4),
+        (extremes, "BLOCK", 8),
+        (extremes, "FINE", 2),
         (extremes, "DIRECT", 0),
     ):
         monkeypatch.setattr(module, name, size)
@@ -91,3 +97,43 @@ def test_what_is_known_of_blocks_is_forgotten_with_their_keys(seed: int, kind: i
             channel.splice(run[at : at + count], after)
     finally:
         extremes.EACH = kept
+
+
+def assert_fresh(channel: Channel, columns: int) -> None:
+    """The ranges, with what was kept, are those of a channel that keeps nothing yet."""
+    run = channel.run()
+    edges = np.linspace(run["time"][0], run["time"][-1], columns)
+    for ours, theirs in zip(channel.envelope(edges), channel.copy().envelope(edges), strict=True):
+        assert (ours == theirs).all()
+
+
+@pytest.mark.usefixtures("short_rows")
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10**6), st.integers(0, 3), st.sampled_from([0, 1 << 18]), st.sampled_from([0, 2, 4]), st.data())
+def test_what_is_kept_follows_gestures(seed: int, kind: int, each: int, few: int, data: st.DataObject) -> None:
+    channel, chance = channel_of(seed, kind, 120), np.random.default_rng(seed)
+    document, kept = Document(Clip([channel])), (extremes.EACH, extremes.FEW)
+    extremes.EACH, extremes.FEW = each, few
+    columns = st.sampled_from([2, 3, 6, 20, 70, 300])
+    try:
+        for _ in range(data.draw(st.integers(1, 3))):
+            assert_fresh(channel, data.draw(columns))
+            ids = np.sort(chance.choice(channel.run()["id"], data.draw(st.sampled_from([1, 3, len(channel)])), False))
+            selection = Selection.of({channel: ids})
+            gesture = document.begin("Move")
+            for _ in range(data.draw(st.integers(1, 4))):
+                d_time, d_value = chance.normal(size=2) * chance.choice([0.01, 1.0, 30.0])
+                gesture.preview(partial(edits.move, selection=selection, d_time=d_time, d_value=d_value))
+                if data.draw(st.booleans()):
+                    assert_fresh(channel, data.draw(columns))
+            edit = None
+            if data.draw(st.booleans()):
+                edit = gesture.commit()
+            else:
+                gesture.cancel()
+            assert_fresh(channel, data.draw(columns))
+            if edit is not None:
+                document.apply(edit.inverse())
+                assert_fresh(channel, data.draw(columns))
+    finally:
+        extremes.EACH, extremes.FEW = kept
