@@ -1,10 +1,10 @@
 """Canvas: the one graphics item that paints all curves, and the listener that knows which pixels a change touches."""
 
 from collections.abc import Callable
-from math import ceil, floor, inf
+from math import ceil, floor, inf, isfinite
 from typing import TYPE_CHECKING, Any, Final
 
-from PySide6.QtCore import QRect, QRectF, Qt, QTimer
+from PySide6.QtCore import QRectF, Qt, QTimer
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 from shiboken6 import isValid
@@ -19,6 +19,7 @@ from widgets.backdrop import SLICE, Backdrop
 from widgets.chosen import MOST
 from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
+from widgets.layers.drawings import drawing_of
 from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of, may_be_named
@@ -239,16 +240,30 @@ class Canvas(QGraphicsItem):
 
     def repaint_times(self, t0: float, t1: float, margin: float = REACH) -> None:
         """Repaint the plot between two times and so much beside them."""
+        strip = self._strip(t0, t1, margin)
+        if strip is not None:
+            self._repaint_strip(*strip)
+
+    def _strip(self, t0: float, t1: float, margin: float) -> tuple[int, int] | None:
+        """From where to where the plot is between two times and so much beside them; None if it is not in view."""
         plot = self._view.plot_rect
         x0 = min(max(self._view.x_from_time(t0) - margin, plot.left()), plot.right())
         x1 = min(max(self._view.x_from_time(t1) + margin, plot.left()), plot.right())
-        if x1 > x0:
-            left, right = floor(x0), ceil(x1)
-            if self._asked[0] <= left and right <= self._asked[1]:
-                return
-            if right - left > self._asked[1] - self._asked[0]:
-                self._asked = (left, right)
-            self._view.viewport().update(QRect(left, floor(plot.top()), right - left, ceil(plot.height()) + 1))
+        return (floor(x0), ceil(x1)) if x1 > x0 else None
+
+    def _repaint_strip(self, left: int, right: int, rows: tuple[float, float] | None = None) -> None:
+        """Repaint the plot from *left* to *right*, all of its height or the *rows* of screen pixels."""
+        if self._asked[0] <= left and right <= self._asked[1]:
+            return
+        plot = self._view.plot_rect
+        top, bottom = floor(plot.top()), floor(plot.top()) + ceil(plot.height()) + 1
+        if rows is not None:
+            unit = self._view.viewport().devicePixelRatioF()
+            top, bottom = max(top, floor(rows[0] / unit) - 1), min(bottom, ceil(rows[1] / unit) + 1)
+        elif right - left > self._asked[1] - self._asked[0]:
+            self._asked = (left, right)
+        if top < bottom:
+            self._view.viewport().update(left, top, right - left, bottom - top)
 
     def _on_changed(self, channel: Channel, t0: float, t1: float) -> None:
         if self._document.gesture is not None and channel not in self._touched:
@@ -282,13 +297,40 @@ class Canvas(QGraphicsItem):
         if stage is None or rings or self._document.session.selection.count > MOST:
             self.repaint_times(t0, t1)
             return
-        self.repaint_times(t0, t1, MARK)
         boxes = [*stage.arms.get(channel, ()), *(handles.box for _, handles in shown_handles(stage, channel))]
         if len(boxes) == 2:  # of one key: they mostly overlap
             (left, top, right, bottom), other = boxes
             boxes = [(min(left, other[0]), min(top, other[1]), max(right, other[2]), max(bottom, other[3]))]
+        strip = self._strip(t0, t1, MARK)
+        if strip is not None:
+            inside = isfinite(t0) and isfinite(t1)  # an extrapolation may be anywhere
+            self._repaint_strip(*strip, self._rows_changed(stage, channel, strip, boxes) if inside else None)
         for box in boxes:
             self._repaint_near(box, stage.window)
+
+    def _rows_changed(
+        self, stage: Stage, channel: Channel, strip: tuple[int, int], boxes: list["Box"]
+    ) -> tuple[float, float] | None:
+        """The rows of screen pixels in which a curve under the hand was painted last or is to be painted in the strip.
+
+        None if that is not known, as before its first step. What is to be painted there is at hand from now on.
+        """
+        trace = stage.trace_of(channel)
+        if trace is None or channel not in self._touched or len(channel) < 2:
+            return None
+        unit = stage.window.unit
+        x0, x1 = strip[0] * unit, strip[1] * unit
+        margin = 4 * unit + MARK * unit
+        low = min([x0, *(box[0] for box in boxes)]) - margin
+        high = max([x1, *(box[2] for box in boxes)]) + margin
+        now = stage.ready[channel] = drawing_of(stage, trace, low, high)
+        before = stage.painted.get(channel)
+        rows = before.rows_between(x0, x1) if before is not None else None
+        rows_now = now.rows_between(x0, x1)
+        if rows is None or rows_now is None:
+            return None
+        reach = MARK * unit
+        return min(rows[0], rows_now[0]) - reach, max(rows[1], rows_now[1]) + reach
 
     def _repaint_near(self, box: "Box", window: Window) -> None:
         """Repaint what lies in a box of screen pixels, and marks around it."""

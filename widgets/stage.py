@@ -23,6 +23,7 @@ from widgets.traces import Trace
 from widgets.words import Words, words_in
 
 if TYPE_CHECKING:
+    from widgets.layers.drawings import Drawing
     from widgets.layers.handles import Box, Hands
 
 
@@ -83,6 +84,9 @@ class Stage:
     seen: tuple[Channel, float] | None = None
     # Where the handles that have been painted last are, in screen pixels.
     arms: dict[Channel, list["Box"]] = field(default_factory=dict)
+    # Curves that are worked out already, and those that were painted last, where they will be asked for again.
+    ready: dict[Channel, "Drawing"] = field(default_factory=dict)
+    painted: dict[Channel, "Drawing"] = field(default_factory=dict)
     # How each channel was drawn, and at which revision; shared by the stages of one window.
     manners: dict[Channel, tuple[int, Manner]] = field(default_factory=dict)
     # The few selected keys as they were read last, and their handles.
@@ -120,9 +124,8 @@ class Stage:
         if window == stage.window:
             return stage
         ticks = ticks_of(window, stage.words(LABEL_SIZE).width, degrees=stage.degrees)
-        return replace(
-            stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], manners={}, sights={}, wholly={}, hands={}
-        )
+        own: dict[str, Any] = {name: {} for name in ("manners", "sights", "wholly", "hands", "ready", "painted")}
+        return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], **own)
 
     def manner_of(self, channel: Channel) -> Manner:
         """How the channel is to be drawn."""

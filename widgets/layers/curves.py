@@ -2,22 +2,16 @@
 
 from collections.abc import Sequence
 from itertools import groupby
-from math import ceil, floor
-from typing import Final
 
-import numpy as np
 from PySide6.QtGui import QColor, QPainter
 
-from model.lines import TOLERANCE, Line, dashes, line_through, lines_through
-from model.sampling import Window, columns
+from model.channel import Spans
+from model.lines import TOLERANCE, Line, dashes, lines_through
+from model.sampling import Window
+from widgets.layers.drawings import REACH, THICKET, boxes_of, line_of
 from widgets.painting import draw_boxes, draw_chain, draw_lines, hair
 from widgets.stage import Stage
 from widgets.traces import Trace
-
-# How far a line reaches beside its mathematical place.
-REACH: Final = 4.0
-# How far, in pixels, the hard lines of a thicket may lie beside a steep curve.
-THICKET: Final = 0.8
 
 
 def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
@@ -25,39 +19,49 @@ def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
     window = stage.window
     t0, t1 = window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH)
     for soft, group in groupby(traces, lambda trace: trace.soft):
-        lined = []
+        # In the order of the traces: a chain that is at hand, or the spans for one.
+        lined: list[tuple[Trace, Line | Spans]] = []
         for trace in group:
-            ends = trace.channel.ends()
-            if ends is None or ends.time1 < t0 or ends.time0 > t1:
+            channel = trace.channel
+            ready = stage.ready.get(channel) if stage.ready else None
+            if ready is not None and ready.serves(channel.revision, x0, x1):
+                stage.painted[channel] = ready
+                if ready.boxes is not None:
+                    draw_boxes(painter, trace.color, ready.boxes)
+                elif ready.line is not None:
+                    lined.append((trace, ready.line))
                 continue
-            if len(trace.channel) > 1 and not _drawn_crowded(painter, stage, trace, trace.color, x0, x1):
-                spans = trace.channel.spans_between(t0, t1)
-                if len(spans.time0):
-                    lined.append((trace, spans))
-        lines = lines_through([spans for _, spans in lined], window, TOLERANCE if soft else THICKET)
-        for (trace, _), line in zip(lined, lines, strict=True):
+            stage.painted.pop(channel, None)
+            ends = channel.ends()
+            if ends is None or ends.time1 < t0 or ends.time0 > t1 or len(channel) < 2:
+                continue
+            if stage.manner_of(channel).columns:
+                draw_boxes(painter, trace.color, boxes_of(window, trace, x0, x1, inside=True))
+                continue
+            spans = channel.spans_between(t0, t1)
+            if len(spans.time0):
+                lined.append((trace, spans))
+        several = [spans for _, spans in lined if isinstance(spans, Spans)]
+        lines = iter(lines_through(several, window, TOLERANCE if soft else THICKET) if several else ())
+        for trace, line in lined:
             pattern = _dash_of(stage, trace)
-            draw_line(painter, window, line, trace, trace.color, trace.pixels(window.unit), pattern)
+            chain = next(lines) if isinstance(line, Spans) else line
+            draw_line(painter, window, chain, trace, trace.color, trace.pixels(window.unit), pattern)
 
 
 def draw_curve(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0: float, x1: float, width: int) -> None:
     """One curve in one colour."""
     window, channel = stage.window, trace.channel
-    if len(channel) > 1 and not _drawn_crowded(painter, stage, trace, color, x0, x1):
-        spans = channel.spans_between(window.time_from_x(x0 - REACH), window.time_from_x(x1 + REACH))
-        line = line_through(spans, window, TOLERANCE if trace.soft else THICKET)
-        draw_line(painter, window, line, trace, color, width, _dash_of(stage, trace))
+    if len(channel) < 2:
+        return
+    if stage.manner_of(channel).columns:
+        draw_boxes(painter, color, boxes_of(window, trace, x0, x1, inside=True))
+    else:
+        draw_line(painter, window, line_of(window, trace, x0, x1), trace, color, width, _dash_of(stage, trace))
 
 
 def _dash_of(stage: Stage, trace: Trace) -> tuple[float, ...]:
     return () if trace.dash and stage.manner_of(trace.channel).undashed else trace.dash
-
-
-def _drawn_crowded(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0: float, x1: float) -> bool:
-    if not stage.manner_of(trace.channel).columns:
-        return False
-    draw_columns(painter, stage.window, trace, color, x0, x1, inside=True)
-    return True
 
 
 def draw_line(
@@ -77,35 +81,3 @@ def draw_line(
         return
     scaled = tuple(part * window.unit for part in pattern)
     draw_lines(painter, dashes(line, scaled, window.top - REACH, window.bottom + REACH), width)
-
-
-def draw_columns(
-    painter: QPainter,
-    window: Window,
-    trace: Trace,
-    color: QColor,
-    x0: float,
-    x1: float,
-    *,
-    inside: bool,
-    every: int = 1,
-) -> None:
-    """The exact lowest to highest value of each pixel column; of the extrapolation every other group of *every*."""
-    ends = trace.channel.ends()
-    if ends is None:
-        return
-    low, high = max(floor(x0 - window.left) - 1, 0), min(ceil(x1 - window.left) + 1, ceil(window.width))
-    if inside:
-        low = max(low, floor(min(max(window.x_from_time(ends.time0) - window.left, -1e9), 1e9)))
-        high = min(high, floor(min(max(window.x_from_time(ends.time1) - window.left, -1e9), 1e9)) + 1)
-    if high <= low:
-        return
-    top, bottom = columns(trace.channel, window, low, high, inside=inside)
-    more = 1 if trace.active else 0
-    boxes = np.empty((high - low, 4), np.int32)
-    x = boxes[:, 0] = np.arange(window.left + low, window.left + high)
-    boxes[:, 1], boxes[:, 2], boxes[:, 3] = np.floor(top), x + more, np.floor(bottom) + more
-    if every > 1:
-        phase = floor(window.t0 * window.px_per_second) % (2 * every)
-        boxes = boxes[(np.arange(low, high) + phase) // every % 2 == 0]
-    draw_boxes(painter, color, boxes)

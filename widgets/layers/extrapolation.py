@@ -10,8 +10,9 @@ from PySide6.QtGui import QPainter
 from model.channel import Spans
 from model.lines import HUGE, line_through, straight_dashes
 from model.sampling import Window, slope_outside, spans_outside
-from widgets.layers.curves import REACH, draw_columns, draw_line
-from widgets.painting import draw_lines, hair
+from widgets.layers.curves import draw_line
+from widgets.layers.drawings import REACH, boxes_of
+from widgets.painting import draw_boxes, draw_lines, hair
 from widgets.stage import Stage
 from widgets.traces import Trace
 
@@ -94,7 +95,7 @@ def _draw_repeats(painter: QPainter, stage: Stage, trace: Trace, x0: float, x1: 
     spans = spans_outside(trace.channel, t0, t1, after=after, most=int(window.width / 2))
     if spans is None:
         stripes = max(round(STRIPES * window.unit), 2)
-        draw_columns(painter, window, trace, trace.faint, x0, x1, inside=False, every=stripes)
+        draw_boxes(painter, trace.faint, boxes_of(window, trace, x0, x1, inside=False, every=stripes))
         return
     shown = (spans.time1 >= window.time_from_x(x0 - REACH)) & (spans.time0 <= window.time_from_x(x1 + REACH))
     spans = Spans(*(column[shown] for column in spans))

@@ -14,7 +14,7 @@ from model.channel import Channel
 from model.keyframe import KeyGoneError, Run, TangentRule
 from model.sampling import FAR, Window
 from widgets.chosen import MOST, Key, Sight, few_chosen, keys_from
-from widgets.layers.curves import draw_columns
+from widgets.layers.drawings import boxes_of
 from widgets.painting import draw_boxes, draw_marks
 from widgets.stage import Stage, chosen
 from widgets.traces import Trace
@@ -140,7 +140,7 @@ def draw_merged(painter: QPainter, stage: Stage, trace: Trace, ids: NDArray[np.i
     window, channel, color = stage.window, trace.channel, stage.theme.key_selected
     whole = stage.wholly[channel] = len(ids) == len(channel)
     if whole:
-        draw_columns(painter, window, trace, color, x0, x1, inside=True)
+        draw_boxes(painter, color, boxes_of(window, trace, x0, x1, inside=True))
         return
     known = stage.sights.get(channel)
     if known is None or known.revision != channel.revision or known.ids is not ids:
