@@ -319,17 +319,16 @@ class Canvas(QGraphicsItem):
         if trace is None or channel not in self._touched or len(channel) < 2:
             return None
         unit = stage.window.unit
-        x0, x1 = strip[0] * unit, strip[1] * unit
-        margin = 4 * unit + MARK * unit
-        low = min([x0, *(box[0] for box in boxes)]) - margin
-        high = max([x1, *(box[2] for box in boxes)]) + margin
+        x0, x1, reach = strip[0] * unit, strip[1] * unit, MARK * unit
+        # As far as will be painted, and a little farther.
+        low = min([x0, *(box[0] - reach for box in boxes)]) - 4 * unit
+        high = max([x1, *(box[2] + reach for box in boxes)]) + 4 * unit
         now = stage.ready[channel] = drawing_of(stage, trace, low, high)
         before = stage.painted.get(channel)
         rows = before.rows_between(x0, x1) if before is not None else None
         rows_now = now.rows_between(x0, x1)
         if rows is None or rows_now is None:
             return None
-        reach = MARK * unit
         return min(rows[0], rows_now[0]) - reach, max(rows[1], rows_now[1]) + reach
 
     def _repaint_near(self, box: "Box", window: Window) -> None:
