@@ -53,14 +53,22 @@ def command_of(words: Sequence[str]) -> bool:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the program: 0 when all went well, 2 after one sentence on stderr when it could not."""
+    """Runs the program: 0 when all went well, 2 after one sentence on stderr when it could not or was stopped."""
+    try:
+        return run(sys.argv[1:] if argv is None else list(argv))
+    except KeyboardInterrupt:  # while there is nobody yet who would close a window or take back what was begun
+        print("stopped", file=sys.stderr)
+        return 2
+
+
+def run(words: list[str]) -> int:
+    """The same with these words of the command line."""
     # Qt's threads for drawing cost an empty plot 17 to 45 ms a picture instead of 2; read once, when Qt is loaded.
     os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")
-    words = sys.argv[1:] if argv is None else list(argv)
     if command_of(words):
-        from app.commands import run
+        from app.commands import run as run_command
 
-        return run(words)
+        return run_command(words)
     if words and words[0].isalpha() and not os.path.exists(words[0]):
         from app.commands import COMMANDS
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import main
 from app.commands import COMMANDS, run
 from model.channel import Channel
 from model.clip import Clip
@@ -325,3 +326,14 @@ def test_a_picture_of_another_kind_than_png_is_not_written_under_its_name(
     code, _, told = hermite("render", walk, "-o", picture)
     assert (code, picture.exists()) == (2, False)
     assert ".png" in told
+
+
+def test_control_c_while_the_program_is_still_loading_is_no_crash(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def press_control_c(_words: object) -> bool:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(main, "command_of", press_control_c)
+    assert main.main(["info", "x.anim"]) == 2
+    assert capsys.readouterr().err == "stopped\n"
