@@ -255,6 +255,8 @@ class Files(QObject):
         return False
 
     def _job_changed(self) -> None:
+        job = self._window.jobs.job
+        self._window.view.set_notice("" if job is None else job.text)
         self._window.refresh_actions()
         if self._closing and self._window.jobs.job is None:
             self._closing = False

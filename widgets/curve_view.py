@@ -342,6 +342,13 @@ class CurveView(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not type
             if each is not None and before != preview:
                 self.canvas.repaint_times(each[1], each[1], DOT + 4)
 
+    def set_notice(self, text: str) -> None:
+        """Say what is going on meanwhile, where there is no curve to be seen."""
+        if text != self.canvas.overlay.notice:
+            self.canvas.overlay.notice = text
+            if not self.document.clip.channels:
+                self.canvas.restyle()
+
     def say(self, text: str) -> None:
         """Tell the user *text* in the status line."""
         self.status.emit(text)

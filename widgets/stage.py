@@ -35,6 +35,8 @@ class Overlay:
     box: QRectF | None = None
     frame: Frame | None = None
     preview: tuple[Channel, float] | None = None
+    # What is going on meanwhile, said where there is nothing to see yet.
+    notice: str = ""
 
 
 # The size of the rulers' numbers beside the view's font.

@@ -21,7 +21,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.formats import read_clip, read_file, write_bytes
 from model.keyframe import make_run
-from tests.app.conftest import answers_of
+from tests.app.conftest import MakeWindow, answers_of
 
 
 class Gate:
@@ -109,6 +109,16 @@ def test_the_window_goes_on_while_a_large_file_is_opened(window: MainWindow, gat
     assert seen[1] is True
     assert window.document.clip.key_count == 12_000
     assert not window.isWindowModified()
+
+
+def test_an_empty_picture_says_what_is_being_opened(make_window: MakeWindow, gate: Gate, large: Path) -> None:
+    window = make_window(Clip())
+    QApplication.processEvents()
+    assert window.view.canvas.stage(1.0).hint.startswith("Nothing here yet")
+    said = meanwhile(lambda: window.view.canvas.stage(1.0).hint, gate.open, pause=20)
+    assert window.open_file(str(large))
+    assert said[0] == "Opening large & long.hermite ..."
+    assert window.view.canvas.stage(1.0).hint == ""
 
 
 def test_progress_comes_into_sight_only_after_a_moment(window: MainWindow, gate: Gate, large: Path) -> None:

@@ -106,6 +106,8 @@ def hint_of(stage: Stage, changed: tuple[float, float] = (inf, -inf)) -> str:
     stage.seen = None
     document, window = stage.document, stage.window
     if not document.clip.channels:
+        if stage.overlay.notice:
+            return f"{stage.overlay.notice} ..."
         return "Nothing here yet\nOpen a file with Ctrl+O, or drop one here"
     traces = (*stage.live, *stage.resting)
     if not traces:
