@@ -143,18 +143,15 @@ def _replace(
         try:
             _write_all(handle, data)
             notes = _keep_attributes(handle, target, status)
-            # A failed sync is final: a second one may report success for pages that are lost.
             if verify is None:
-                _sync(handle)
+                written = _taken(handle, data)
             else:
-                with meanwhile(lambda: _sync(handle)):
+                found: list[os.stat_result] = []
+                with meanwhile(lambda: found.append(_taken(handle, data))):
                     verify(data)
-            same = _holds(handle, data)
-            written = os.fstat(handle)
+                written = found[0]
         finally:
             os.close(handle)
-        if not same:
-            raise OSError(errno.EIO, "the disk gave back other bytes than were written")
         if _version(os.stat(temp)) != _version(written) and not _still_holds(temp, data):
             raise OSError(errno.EIO, "the new file was changed by something else before it was in its place")
         if last_look is not None:
@@ -164,6 +161,14 @@ def _replace(
         _remove(temp)
         raise
     return notes
+
+
+def _taken(handle: int, data: bytes) -> os.stat_result:
+    """What the file is once the disk has taken it and has given back *data* byte for byte."""
+    _sync(handle)  # a failed one is final: a second one may report success for pages that are lost
+    if not _holds(handle, data):
+        raise OSError(errno.EIO, "the disk gave back other bytes than were written")
+    return os.fstat(handle)
 
 
 def _still_holds(temp: str, data: bytes) -> bool:

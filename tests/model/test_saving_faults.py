@@ -131,13 +131,38 @@ def test_a_disk_that_is_full_keeps_the_old_version(target: Path, monkeypatch: py
     assert others(target) == []
 
 
-def test_bytes_that_the_disk_changed_never_take_the_place_of_the_old(
+def test_a_file_changed_after_it_was_read_back_never_takes_the_place_of_the_old(
     target: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real, read_back = saving._taken, threading.Event()
+
+    def taken(handle: int, data: bytes) -> os.stat_result:
+        status = real(handle, data)
+        read_back.set()
+        return status
+
+    def verify(data: bytes) -> None:
+        assert read_back.wait(10)
+        (name,) = others(target)
+        temp = target.with_name(name)
+        temp.write_bytes(data.swapcase())
+        os.utime(temp, ns=(1, 1))  # another time than before, however coarse the system's clock is
+
+    monkeypatch.setattr(saving, "_taken", taken)
+    with pytest.raises(SaveError, match="changed by something else"):
+        save_atomic(target, NEW, verify=verify)
+    assert target.read_bytes() == OLD
+    assert others(target) == []
+
+
+@pytest.mark.parametrize("verify", [None, lambda _data: None])
+def test_bytes_that_the_disk_changed_never_take_the_place_of_the_old(
+    target: Path, monkeypatch: pytest.MonkeyPatch, verify: saving.Verify | None
 ) -> None:
     real = os.read
     monkeypatch.setattr(os, "read", lambda handle, size: real(handle, size).replace(b"new", b"nEw"))
     with pytest.raises(SaveError, match="other bytes than were written"):
-        save_atomic(target, NEW)
+        save_atomic(target, NEW, verify=verify)
     assert target.read_bytes() == OLD
     assert others(target) == []
 
