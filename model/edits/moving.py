@@ -68,13 +68,14 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
     keys_by_channel = list(selected_keys(selection))
     limits: list[tuple[Floats, Floats] | None] = [None] * len(keys_by_channel)
     if d_time and not reorder:
-        limits = [_limits(channel, keys) for channel, keys in keys_by_channel]
+        # Where all keys move there is none in the way.
+        limits = [_limits(channel, keys) if len(keys) < len(channel) else None for channel, keys in keys_by_channel]
         for (_, keys), limit in zip(keys_by_channel, limits, strict=True):
             d_time = _stopped(keys, limit, d_time)
     changes: list[Change] = []
     for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
         splices = partial(_spliced, channel, keys, d_time, d_value, limit)
-        if len(keys) < FEW or not reorder or len(channel) > SCATTERED * len(keys):
+        if len(keys) < FEW or limit is not None or len(channel) > SCATTERED * len(keys):
             changes += splices()
             continue
         first, last = float(keys["time"][0]), float(keys["time"][-1])
