@@ -17,6 +17,7 @@ import gc
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NoReturn
 
 # Installed, this file is hermite_editor/__main__.py and the rooms lie beside it, under the same names as in a checkout.
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -31,11 +32,17 @@ Each tells more with --help. A file that is called like a command opens as ./inf
 """
 
 
+class OneSentence(argparse.ArgumentParser):
+    """A parser whose refusal is one sentence instead of a page."""
+
+    def error(self, message: str) -> NoReturn:
+        """End with it."""
+        self.exit(2, f"hermite: {message} (see hermite --help)\n")
+
+
 def parser() -> argparse.ArgumentParser:
     """The options of the window."""
-    result = argparse.ArgumentParser(
-        prog="hermite", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    result = OneSentence(prog="hermite", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter)
     result.add_argument("file", nargs="?", metavar="FILE", help="the clip to open, a sample if left out")
     result.add_argument("--skel", metavar="FILE", help="a skeleton whose joints name the channels of a course .anim")
     result.add_argument("--check", action="store_true", help="open, draw one picture, tell versions and times, close")

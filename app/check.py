@@ -60,7 +60,8 @@ def run_check(path: str | None, skel: str | None, started: float) -> int:
         print(*(f"{name} {version(name)}" for name in PACKAGES), sep=", ")
         print(f"screen {QApplication.platformName()} {size.width()}x{size.height()} at {screen.devicePixelRatio():g}")
         print(f"{window.files.name}: {len(clip.channels)} channels, {clip.key_count} keys")
-        print(f"first picture {picture:.2f} s after the start, {work:.2f} s of them at work; frame {frames[0]:.2f} s")
+        print(f"first picture {picture:.2f} s after the start, {work:.2f} s of processor time")
+        print(f"empty frame {frames[0]:.2f} s after the start")
         QApplication.exit(0)
 
     try:

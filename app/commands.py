@@ -41,7 +41,9 @@ def run(argv: Sequence[str]) -> int:
     if sys.stdout is None:  # closed by whoever called
         return _refused("there is nowhere to print to: the output is closed")
     try:
-        arguments = parser().parse_args(argv)
+        arguments, strangers = parser().parse_known_args(argv)
+        if strangers:
+            raise CommandError(_unknown(arguments.command, strangers[0]))
         COMMANDS[arguments.command].run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
@@ -88,16 +90,34 @@ def parser() -> argparse.ArgumentParser:
     commands = result.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
     for name, command in COMMANDS.items():
         sub = commands.add_parser(name, help=command.help, description=command.help, allow_abbrev=False)
+        sub.usage = f"hermite {name} FILE{' OUT' if name == 'convert' else ''} [OPTION ...]"
         sub.add_argument("file", metavar="FILE", help="the clip")
         sub.add_argument("--skel", metavar="FILE", help="a skeleton whose joints name the channels of a course .anim")
         command.add_arguments(sub)
     return result
 
 
+def _unknown(command: str, word: str) -> str:
+    """What to say of a word that is no option of the command, or one file too many."""
+    if not word.startswith("-"):
+        return f"hermite {command}: {word!r} is one word too many (see hermite {command} --help)"
+    import difflib
+
+    sub = argparse.ArgumentParser(add_help=False)
+    COMMANDS[command].add_arguments(sub)
+    options = [option for action in sub._actions for option in action.option_strings]
+    close = difflib.get_close_matches(word, [*options, "--skel"], 1, 0.6)
+    hint = f"did you mean {close[0]}?" if close else f"see hermite {command} --help"
+    return f"hermite {command}: there is no option {word} ({hint})"
+
+
 def _number(text: str) -> float:
     value = float(text) if _NUMBER.match(text) else math.nan
     if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number")
+        cure = "; numbers are parted by spaces" if "," in text else ""
+        if "." in text.lstrip("-0123456789.") or os.path.exists(text):
+            cure = "; the clip stands in front of the options"
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number{cure}")
     return value
 
 
@@ -243,6 +263,8 @@ def _add_convert(sub: argparse.ArgumentParser) -> None:
 def _convert(arguments: argparse.Namespace) -> None:
     from model.saving import save_clip
 
+    if os.path.isdir(arguments.out):
+        raise CommandError(f"{arguments.out}: this is a folder; give a file name")
     format_name = arguments.format or format_of_path(arguments.out)
     if format_name is None:
         known = ", ".join(row.extension for row in FORMATS.values())

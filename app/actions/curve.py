@@ -20,8 +20,9 @@ SIDES = {"pre": "Before the First Key", "post": "After the Last Key"}
 def _set_extrapolation(side: str, mode: Extrapolation, window: "MainWindow") -> None:
     channels = window.in_hand.curves
     modes = {side: mode}
+    where = "before" if side == "pre" else "after"
     window.document.do(
-        f"Set {side} of {channels_text(channels)} to {mode.word.replace('_', ' ')}",
+        f"Set the extrapolation {where} {channels_text(channels)} to {mode.word.replace('_', ' ')}",
         lambda clip: edits.set_extrapolation(clip, channels, modes.get("pre"), modes.get("post")),
     )
 

@@ -178,7 +178,15 @@ REFUSED = {
     "infinity": (["evaluate", "{walk}", "--times", "1e999"], "'1e999' is not a number"),
     "an underscore": (["evaluate", "{walk}", "--times", "1_0"], "'1_0' is not a number"),
     "times and a rate": (["evaluate", "{walk}", "--times", "1", "--rate", "2"], "either --times or --from"),
-    "an unknown option": (["evaluate", "{walk}", "--fps", "2"], "unrecognized arguments: --fps 2"),
+    "a mistyped option": (["evaluate", "{walk}", "--form", "0"], "there is no option --form (did you mean --from?)"),
+    "a second file": (["info", "{walk}", "{walk}"], "is one word too many"),
+    "options before the clip": (["evaluate", "--times", "0", "{walk}"], "the clip stands in front of the options"),
+    "commas": (["evaluate", "{walk}", "--times", "0,1"], "numbers are parted by spaces"),
+    "a folder and no format": (["convert", "{walk}", "."], ".: this is a folder; give a file name"),
+    "an unknown option": (
+        ["evaluate", "{walk}", "--fps", "2"],
+        "there is no option --fps (see hermite evaluate --help)",
+    ),
     "no file": (["info"], "the following arguments are required: FILE"),
     "no extension": (
         ["convert", "{walk}", "out"],
