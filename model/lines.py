@@ -22,11 +22,11 @@ STEEP = 1e6
 
 
 class Line(NamedTuple):
-    """A chain of points in pixels, and which span each begins a piece of; steps of a curve are upright pieces."""
+    """A chain of points in pixels, and how many of them each span has; steps of a curve are upright pieces."""
 
     x: Floats
     y: Floats
-    span: NDArray[np.intp]
+    counts: NDArray[np.intp]
 
 
 def line_through(spans: Spans, window: Window, sideways: float = TOLERANCE) -> Line:
@@ -48,8 +48,7 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
         table = _in_pixels(spans, window)
         n, turning = _pieces(table, sideways)
         borders = np.cumsum(lengths)[:-1] if len(many) > 1 else None
-        open_ends = np.ones(len(n), np.bool_)
-        open_ends[:-1] = ~_joined(table, borders)
+        open_ends = _open_ends(table, borders)
         points = n + open_ends
         ends = points.cumsum()
         starts = ends - points
@@ -59,13 +58,12 @@ def lines_through(many: Sequence[Spans], window: Window, sideways: float = TOLER
         x[ends[some] - 1], y[ends[some] - 1] = _at(table.take(some, axis=1), 1.0)
         inside, which, u = _inner(table, n, turning, starts)
         x[inside], y[inside] = _at(table.take(which, axis=1), u)
-        span = np.arange(len(n)).repeat(points)
     near = bool(y.min() >= -FAR and y.max() <= FAR and x.min() >= -FAR and x.max() <= FAR)
     if borders is None:
-        lines = [Line(x, y, span)]
+        lines = [Line(x, y, points)]
     else:
-        cuts = [0, *np.concatenate(([0], ends))[borders].tolist(), len(x)]
-        lines = [Line(x[i:j], y[i:j], span[i:j]) for i, j in pairwise(cuts)]
+        cuts = [(0, 0), *zip(borders.tolist(), np.append(0, ends)[borders].tolist(), strict=True), (len(n), len(x))]
+        lines = [Line(x[i:j], y[i:j], points[k:m]) for (k, i), (m, j) in pairwise(cuts)]
     return lines if near else [kept_near(*line) for line in lines]
 
 
@@ -88,15 +86,20 @@ def _in_pixels(spans: Spans, window: Window) -> Floats:
     return _seen_part(table, window) if wide.max() > window.width else table
 
 
-def _joined(table: Floats, borders: NDArray[np.intp] | None) -> NDArray[np.bool_]:
-    """Whether each span but the last ends where the next one begins: not at steps, there the line goes on upright."""
-    end: Floats = table[2:, :-1].sum(axis=0)
-    end -= table[2, 1:]
+def _open_ends(table: Floats, borders: NDArray[np.intp] | None) -> NDArray[np.bool_]:
+    """Whether a span ends where no next one begins: at the end of a chain, and at steps, where it goes on upright."""
+    found = np.ones(table.shape[1], np.bool_)
+    _, _, d, c, b, a = table
+    end = d[:-1] + c[:-1]
+    end += b[:-1]
+    end += a[:-1]
+    end -= d[1:]
     np.abs(end, out=end)
-    joined: NDArray[np.bool_] = end < 0.01
+    np.less(end, 0.01, out=found[:-1])
+    np.logical_not(found[:-1], out=found[:-1])
     if borders is not None:
-        joined[borders[(borders > 0) & (borders <= len(joined))] - 1] = False
-    return joined
+        found[borders[borders > 0] - 1] = True
+    return found
 
 
 def _seen_part(table: Floats, window: Window) -> Floats:
@@ -170,50 +173,53 @@ def _inner(
     table: Floats, n: NDArray[np.intp], turning: NDArray[np.bool_], starts: NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """The points between the pieces of each span: their places in the chain, their spans and where in these."""
+    (some,) = (n > 1).nonzero()
+    n = n.take(some)
     inner = n - 1
-    ends = inner.cumsum()
-    which = np.arange(len(n)).repeat(inner)
-    first = ends - inner
+    first = inner.cumsum()
+    first -= inner
+    which = some.repeat(inner)
     place = np.arange(1, len(which) + 1)
-    place -= first.take(which)
-    u: Floats = place / n.take(which)
+    place -= first.repeat(inner)
+    u: Floats = place / n.repeat(inner)
     place += starts.take(which)
-    _set_extrema(u, table, n, first, turning)
+    (bent,) = turning.take(some).nonzero()
+    if len(bent):
+        _set_extrema(u, table[3:].take(some.take(bent), axis=1), n.take(bent), first.take(bent))
     return place, which, u
 
 
-def _set_extrema(
-    u: Floats, table: Floats, n: NDArray[np.intp], first: NDArray[np.intp], turning: NDArray[np.bool_]
-) -> None:
-    """Move the nearest inner point of each span onto each extremum; a span of one piece has none worth a point."""
-    (bent,) = turning.nonzero()
-    if not len(bent):
-        return
-    c, b, a = table[3:].take(bent, axis=1)
+def _set_extrema(u: Floats, cba: Floats, n: NDArray[np.intp], first: NDArray[np.intp]) -> None:
+    """Move the nearest inner point of each of some spans onto each extremum; their points begin at *first*."""
+    c, b, a = cba
     a *= 3
     root = b * b
     root -= a * c
-    np.sqrt(np.maximum(root, 0.0, out=root), out=root)
+    np.maximum(root, 0.0, out=root)
+    np.sqrt(root, out=root)
     q = np.copysign(root, b, out=root)
     q += b
     np.negative(q, out=q)
-    places = np.empty((2, len(bent)))
+    places = np.empty((2, len(n)))
     np.divide(q, a, out=places[0])
     np.divide(c, q, out=places[1])
-    flat = places.reshape(-1)
-    (some,) = ((flat > 0) & (flat < 1)).nonzero()
-    if len(some):
-        place, span = flat.take(some), bent.take(some, mode="wrap")
-        last = n.take(span)
-        at = np.rint(place * last).astype(np.intp)
-        np.minimum(np.maximum(at, 1, out=at), last - 1, out=at)
-        at += first.take(span)
-        at -= 1
-        u[at] = place
+    inside = places > 0.0
+    inside &= places < 1.0
+    (some,) = inside.reshape(-1).nonzero()
+    place = places.reshape(-1).take(some)
+    n, first = n.take(some, mode="wrap"), first.take(some, mode="wrap")
+    at = np.rint(place * n).astype(np.intp)
+    n -= 1
+    np.minimum(at, n, out=at)
+    np.maximum(at, 1, out=at)
+    at += first
+    at -= 1
+    u[at] = place
 
 
-def kept_near(x: Floats, y: Floats, span: NDArray[np.intp]) -> Line:
+def kept_near(x: Floats, y: Floats, counts: NDArray[np.intp]) -> Line:
     """The chain cut where it leaves the pixels that Qt can paint; the slopes of what stays are kept."""
+    span = np.arange(len(counts)).repeat(counts)
     y = np.clip(np.nan_to_num(y, nan=0.0), -HUGE, HUGE)
     for limit in (FAR, -FAR):
         at = np.flatnonzero((y[:-1] - limit) * (y[1:] - limit) < 0)
@@ -222,7 +228,7 @@ def kept_near(x: Floats, y: Floats, span: NDArray[np.intp]) -> Line:
             x = np.insert(x, at + 1, x[at] + part * (x[at + 1] - x[at]))
             y = np.insert(y, at + 1, limit)
             span = np.insert(span, at + 1, span[at])
-    return Line(np.clip(x, -FAR, FAR), np.clip(y, -FAR, FAR), span)
+    return Line(np.clip(x, -FAR, FAR), np.clip(y, -FAR, FAR), np.bincount(span, minlength=len(counts)))
 
 
 def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) -> Floats:
@@ -238,7 +244,8 @@ def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) ->
     ends = np.empty(len(length) + 1)
     ends[0], ends[1:] = 0.0, end
     start = end - length
-    start -= ends.take(line.span.searchsorted(line.span[:-1]))
+    firsts = line.counts.cumsum() - line.counts
+    start -= ends.take(firsts.repeat(line.counts)[:-1])
     inside = bool(line.y.min() >= top and line.y.max() <= bottom)
     seen = length > 0
     if not inside:

@@ -118,7 +118,7 @@ def test_whatever_the_numbers_qt_gets_only_near_ones(v0: float, v1: float, slope
 
 
 def test_a_steep_line_keeps_its_slope_where_it_is_cut() -> None:
-    line = kept_near(np.array([0.0, 1000.0]), np.array([-1e9, 1e9]), np.zeros(2, np.intp))
+    line = kept_near(np.array([0.0, 1000.0]), np.array([-1e9, 1e9]), np.array([2]))
     assert np.abs(line.y).max() == FAR
     inside = np.flatnonzero(np.abs(line.y[:-1] - line.y[1:]) == 2 * FAR)
     assert line.x[inside] == pytest.approx([500 - 0.05], abs=1e-6)
@@ -182,7 +182,7 @@ def test_one_spike_among_a_million_keys_reaches_its_pixel_at_every_zoom() -> Non
 @pytest.mark.parametrize("pattern", [(5.0, 4.0), (9.0, 3.0, 2.0, 3.0)])
 def test_dashes_are_as_long_as_the_pattern_says_and_lie_on_the_line(pattern: tuple[float, ...]) -> None:
     x = np.linspace(0.0, 300.0, 701)
-    line = Line(x, 100 + 80 * np.sin(x / 20), np.zeros(len(x), np.intp))
+    line = Line(x, 100 + 80 * np.sin(x / 20), np.array([len(x)]))
     pieces = dashes(line, pattern, -1e3, 1e3)
     pieces = pieces[np.argsort(pieces[:, 0])]
     length = np.hypot(pieces[:, 2] - pieces[:, 0], pieces[:, 3] - pieces[:, 1])
@@ -204,7 +204,7 @@ def test_dashes_begin_anew_at_every_key_so_that_edits_move_none_beside_them() ->
 
 
 def test_a_line_of_a_million_pixels_costs_no_million_dashes() -> None:
-    line = Line(np.array([0.0, 1.0]), np.array([-FAR, FAR]), np.zeros(2, np.intp))
+    line = Line(np.array([0.0, 1.0]), np.array([-FAR, FAR]), np.array([2]))
     assert len(dashes(line, (3.0, 4.0), 0.0, 900.0)) == pytest.approx(900 / 7, abs=2)
     (pieces,) = straight_dashes(np.array([[0.0, 0.0, 0.5, 1e6, 1e6 + 100]]), 3.0, 4.0, 0.0, 1e6)
     assert len(pieces) == pytest.approx(112 / 7, abs=2)
