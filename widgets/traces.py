@@ -13,7 +13,7 @@ from widgets.theme import Theme
 
 # With more keys than this in all, hard lines: soft ones cost twice the ink and are lost in a thicket.
 MOST_SOFT_KEYS: Final = 20_000
-# With more curves than this, whole lines: dashes would make a fabric of them.
+# With more curves than this, whole lines: dashes would make a fabric of them, and the active one stands out anyway.
 MOST_DASHED: Final = 24
 LOCKED_DASH: Final = (3.0, 3.0)
 # A theme's dashes are in widths of a pen that would be so wide; longer dashes keep a curve a curve.
@@ -82,7 +82,7 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
                 index,
                 color,
                 mix(color, theme.background, FAINT),
-                dash if dashed or channel is active else (),
+                dash if dashed or (channel.locked and channel is active) else (),
                 2.0 if channel is active else 1.0,
                 soft or channel is active,
                 channel is active,
