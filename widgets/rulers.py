@@ -94,16 +94,16 @@ def _draw_centred(
 ) -> None:
     """Words centred at x, without those that would be cut at an end or by the playhead's head."""
     window, words = stage.window, stage.words(size)
-    gap, tip = stage.px(3), stage.px(HEAD_HALF)
+    gap, tip, playhead = stage.px(3), stage.px(HEAD_HALF), window.x_from_time(stage.document.session.playhead)
+    taken = [(playhead - tip, playhead + tip)]
     head = _head(stage)[0]
-    stem = QRectF(window.x_from_time(stage.document.session.playhead) - tip, 0, 2 * tip, window.top)
-    top, high = baseline - words.cap_height, words.cap_height
+    if baseline - words.cap_height < head.bottom() and head.top() < baseline:
+        taken.append((head.left(), head.right()))
+    first, last = window.left - 1, window.right + 1
     for label, middle in zip(labels, x, strict=True):
         half = words.width(label) / 2
-        if middle - half - gap < window.left - 1 or middle + half + gap > window.right + 1:
-            continue
-        row = QRectF(middle - half - gap, top, 2 * (half + gap), high)
-        if not row.intersects(head) and not row.intersects(stem):
+        left, right = middle - half - gap, middle + half + gap
+        if first <= left and right <= last and not any(left < end and begin < right for begin, end in taken):
             words.draw(painter, middle - half, baseline, label)
 
 
