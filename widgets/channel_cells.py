@@ -153,12 +153,12 @@ class ChannelCells(QStyledItemDelegate):
             color = theme.channel_color(channel, rank)
             pen = QPen(color, 2.5)
             pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-            if not self._alike:
-                channels = enumerate(self._document.clip.channels)
-                self._alike = Counter(theme.channel_color(other, place).rgba() for place, other in channels)
-            dash = theme.channel_dash(channel, rank)
+            channels = self._document.clip.channels
             # As the curves: a second code where the first is not enough, and never a fabric of dashes.
-            if dash and self._alike[color.rgba()] > 1 and self._alike.total() <= MOST_DASHED:
+            if not self._alike and len(channels) <= MOST_DASHED:
+                self._alike = Counter(theme.channel_color(other, place).rgba() for place, other in enumerate(channels))
+            dash = theme.channel_dash(channel, rank)
+            if dash and self._alike[color.rgba()] > 1:
                 pen.setDashPattern([max(length * 0.4, 0.8) for length in dash])
             self._pens[channel] = pen
         return self._pens[channel]

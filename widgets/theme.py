@@ -1,6 +1,7 @@
 """Theme: one look for all widgets, dark or light, and the colour of every channel."""
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final, Self
 
 from PySide6.QtCore import QObject, QSize, Qt, Signal
@@ -181,6 +182,7 @@ class Theme(QObject):
         return (self.accent, self.accent) if state == QIcon.State.On else (self.text, self.accent)
 
 
+@lru_cache(maxsize=4096)
 def axis_of(leaf: str) -> tuple[int | None, int]:
     """(0, 1, 2 for x, y, z or None, 1 for a rotation else 0) by the last part of a channel's name."""
     found = AXIS_LAST.match(leaf) or AXIS_FIRST.match(leaf)

@@ -66,28 +66,23 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
     dashed = len(shown) <= MOST_DASHED
     active = session.active
     some_active = any(channel is active for _, channel in shown)
-    colors = {index: theme.channel_color(channel, index) for index, channel in shown}
-    alike = Counter(color.rgba() for color in colors.values())
+    colors = [theme.channel_color(channel, index) for index, channel in shown]
+    alike = Counter(color.rgba() for color in colors) if dashed else Counter()
+    mixed: dict[tuple[int, float], tuple[QColor, QColor]] = {}
     traces = []
-    for index, channel in shown:
-        own = colors[index]
+    for (index, channel), own in zip(shown, colors, strict=True):
         part = LOCKED_DIMMED if channel.locked else DIMMED if some_active and channel is not active else 0.0
-        color = mix(own, theme.background, part)
-        # A second code beside the colour, only where two of the shown curves have the same.
-        dash = theme.channel_dash(channel, index) if alike[own.rgba()] > 1 else ()
-        dash = LOCKED_DASH if channel.locked else tuple(DASH_UNIT * part for part in dash)
-        traces.append(
-            Trace(
-                channel,
-                index,
-                color,
-                mix(color, theme.background, FAINT),
-                dash if dashed or (channel.locked and channel is active) else (),
-                2.0 if channel is active else 1.0,
-                soft or channel is active,
-                channel is active,
-            )
-        )
+        if (look := (own.rgba(), part)) not in mixed:
+            color = mix(own, theme.background, part)
+            mixed[look] = color, mix(color, theme.background, FAINT)
+        color, faint = mixed[look]
+        dash: tuple[float, ...] = ()
+        if channel.locked and (dashed or channel is active):
+            dash = LOCKED_DASH
+        elif alike[own.rgba()] > 1:  # a second code beside the colour, only where two of the shown curves have the same
+            dash = tuple(DASH_UNIT * length for length in theme.channel_dash(channel, index))
+        width, soft_too = (2.0, True) if channel is active else (1.0, soft)
+        traces.append(Trace(channel, index, color, faint, dash, width, soft_too, channel is active))
     return tuple(sorted(traces, key=lambda trace: trace.active))
 
 
