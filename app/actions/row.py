@@ -56,11 +56,13 @@ def editable_channels(window: "MainWindow") -> list["Channel"]:
 
 
 A_CHANNEL = Need(lambda w: bool(w.document.clip.channels), "the clip has no channels")
-KEYS = Need(lambda w: w.document.clip.key_count > 0, "the clip has no keys")
+KEYS = Need(lambda w: any(map(len, w.document.clip.channels)), "the clip has no keys")
 SELECTED_KEYS = Need(lambda w: bool(w.session.selection), "no keys are selected")
 AN_ACTIVE_CHANNEL = Need(lambda w: w.session.active is not None, "no channel is active")
 ACTIVE_IS_SHOWN = Need(
     lambda w: w.session.active is not None and w.session.shown(w.session.active), "the active channel is not shown"
 )
-EDITABLE_CHANNELS = Need(lambda w: bool(editable_channels(w)), "no channel is shown and unlocked")
-SHOWN_CHANNELS = Need(lambda w: bool(w.session.shown_channels(w.document.clip)), "no channel is shown")
+EDITABLE_CHANNELS = Need(
+    lambda w: any(map(w.session.editable, w.document.clip.channels)), "no channel is shown and unlocked"
+)
+SHOWN_CHANNELS = Need(lambda w: any(map(w.session.shown, w.document.clip.channels)), "no channel is shown")
