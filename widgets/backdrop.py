@@ -19,7 +19,7 @@ from widgets.traces import Trace
 # A picture that took no longer than this is drawn anew at once, without a preview.
 QUICK: Final = 0.006
 # What takes longer than this comes in slices even where there is nothing to preview it by, or only what was before.
-LONG: Final = 0.045
+LONG: Final = 0.02
 # How long one slice of a slow picture may hold up the mouse.
 SLICE: Final = 0.005
 # A picture scaled further than this tells nothing.

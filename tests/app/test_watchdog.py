@@ -152,6 +152,26 @@ def test_no_text_of_very_many_keys_stops_the_window(make_window: MakeWindow, lar
     assert too_long(scenario) == {}
 
 
+def test_no_clip_of_very_many_channels_stops_the_window(make_window: MakeWindow, tmp_path: Path) -> None:
+    window = make_window(small_clip())
+    answers_of(window).answers["save_changes"] = Answer.DISCARD
+    values = np.round(np.random.default_rng(6).normal(size=(500, 100)).cumsum(axis=1), 3)
+    channels = [
+        Channel(f"joint{i // 3}.t{'xyz'[i % 3]}", make_run(np.arange(100.0), row)) for i, row in enumerate(values)
+    ]
+    path = tmp_path / "many.hermite"
+    path.write_bytes(write_bytes(Clip(channels, end=100.0), "hermite"))
+
+    def scenario() -> dict[str, float]:
+        pauses = {"opening": held_up(lambda: window.open_file(str(path)), settle=600)}
+        assert len(window.document.clip.channels) == 500
+        pauses["filtering"] = held_up(lambda: QTest.keyClick(window.tree.filter, "j"))
+        window.tree.filter.clear()
+        return pauses
+
+    assert too_long(scenario) == {}
+
+
 def test_a_window_that_does_stop_is_noticed(
     make_window: MakeWindow, large: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
