@@ -22,11 +22,10 @@ class Job(QObject):
 
     ended = Signal()  # from the other thread
 
-    def __init__(self, text: str, work: Callable[[Report], object], *, vital: bool, stoppable: bool) -> None:
+    def __init__(self, text: str, work: Callable[[Report], object], *, vital: bool) -> None:
         super().__init__()
         self.text = text
         self.vital = vital  # not given up because the window is closed
-        self.stoppable = stoppable
         self.share = 0.0
         self.cancelled = False
         self.result: object = None
@@ -34,8 +33,8 @@ class Job(QObject):
         self._work = work
 
     def cancel(self) -> None:
-        """Have it stopped, if it is stoppable, where it next reports; nothing is left of it then."""
-        self.cancelled = self.stoppable
+        """Have it stopped where it next reports; nothing is left of it then."""
+        self.cancelled = True
 
     def do(self) -> None:
         """Do the work, on whatever thread this is."""
@@ -61,9 +60,7 @@ class Jobs(QObject):
         self.job: Job | None = None
         self._loop: QEventLoop | None = None
 
-    def run[T](
-        self, text: str, work: Callable[[Report], T], *, at_once: bool, vital: bool = False, stoppable: bool = True
-    ) -> T:
+    def run[T](self, text: str, work: Callable[[Report], T], *, at_once: bool, vital: bool = False) -> T:
         """Do *work* and give its result or raise its error; CancelledError if it was cancelled.
 
         *at_once* does it here and now, without a word: for work that is done before anybody sees it begin.
@@ -72,7 +69,7 @@ class Jobs(QObject):
             raise RuntimeError(f"{self.job.text!r} is still going on")
         if at_once:
             return work(unheard)
-        job = self.job = Job(text, work, vital=vital, stoppable=stoppable)
+        job = self.job = Job(text, work, vital=vital)
         self._loop = QEventLoop(self)
         interval = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH_INTERVAL)

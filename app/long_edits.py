@@ -18,7 +18,7 @@ class LongEdits:
         self._window = window
         self._progress = progress
 
-    def __call__[T](self, text: str, work: Callable[[Report], T], *, stoppable: bool) -> T:
+    def __call__[T](self, text: str, work: Callable[[Report], T]) -> T:
         """Do *work* as a job; at once if there is another job already."""
         window = self._window
         if window.jobs.job is not None:
@@ -28,7 +28,7 @@ class LongEdits:
         window.view.hold()
         window.tree.view.setUpdatesEnabled(False)  # its rows read the curves as they are painted
         try:
-            return window.jobs.run(text, work, at_once=False, vital=True, stoppable=stoppable)
+            return window.jobs.run(text, work, at_once=False, vital=True)
         except CancelledError:
             window.say(f"{text}: cancelled, nothing has changed")
             raise

@@ -50,7 +50,7 @@ class ProgressRow(QWidget):
 
     def stop(self) -> None:
         """Cancel the job under way."""
-        if self._jobs.job is not None and self._jobs.job.stoppable:
+        if self._jobs.job is not None:
             self._jobs.job.cancel()
             self.cancel.setEnabled(False)
 
@@ -69,7 +69,6 @@ class ProgressRow(QWidget):
             text = self._jobs.job.text
             self.text.setText(self.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, TEXT_WIDTH))
             self.bar.setAccessibleDescription(text)
-            self.cancel.setVisible(self._jobs.job.stoppable)
             self._tell_share()
             self._pulse.start(REFRESH_MILLISECONDS)
             self.show()

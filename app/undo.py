@@ -2,10 +2,11 @@
 
 from typing import NamedTuple
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from model.document import Document, Edit
+from model.progress import CancelledError
 from widgets.guard import guarded
 
 
@@ -26,11 +27,11 @@ class EditCommand(QUndoCommand):
         if self._already_done:
             self._already_done = False
             return
-        self._stack.apply(self.edit)
+        self._stack.apply(self, self.edit)
 
     @guarded()
     def undo(self) -> None:
-        self._stack.apply(self.edit.inverse())
+        self._stack.apply(self, self.edit.inverse())
 
 
 class Mark(NamedTuple):
@@ -48,19 +49,27 @@ class Mark(NamedTuple):
 class UndoStack(QUndoStack):
     """The history of one document; its clean index is the state that was last opened or saved."""
 
+    stayed = Signal(str)  # a step, so called, was cancelled
+
     def __init__(self, document: Document, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._document = document
         self._history = 0
+        # While this is set, what Qt undoes and redoes is nothing to the document.
         self._passing = False
+        # Where the document has stayed since a step, so called, was cancelled: Qt takes it all the same.
+        self._left_at: int | None = None
+        self._left = ""
         document.committed.connect(self._push)
         document.clip_replaced.connect(self._forget)
 
     def _push(self, edit: Edit) -> None:
+        self._come_back()
         self.push(EditCommand(self, edit))
 
     def mark(self) -> Mark:
         """The state that the document is in."""
+        self._come_back()
         return self._mark_at(self.index())
 
     def _mark_at(self, index: int) -> Mark:
@@ -72,32 +81,48 @@ class UndoStack(QUndoStack):
         if mark.step > self.count() or not self._mark_at(mark.step).same(mark):
             self.resetClean()  # the way there is gone
             return
+        self._come_back()
         here = self.index()
         if here == mark.step:
             self.setClean()
             return
         # Qt can only call the present state clean: the history goes there and back while the document stays.
+        self._pass_to(mark.step)
+        self.setClean()
+        self._pass_to(here)
+
+    def _pass_to(self, index: int) -> None:
         self._passing = True
         try:
-            self.setIndex(mark.step)
-            self.setClean()
-            self.setIndex(here)
+            self.setIndex(index)
         finally:
             self._passing = False
 
+    def _come_back(self) -> None:
+        """Have the history where the document has stayed."""
+        if self._left_at is not None:
+            index, self._left_at = self._left_at, None
+            self._pass_to(index)
+            self.stayed.emit(self._left)
+
     def _forget(self) -> None:
+        self._left_at = None
         self._history += 1
         self.clear()
         self.setClean()  # clear() leaves the mark alone when there is nothing to clear
 
-    def apply(self, edit: Edit) -> None:
-        """Bring the document to the other side of *edit*; an open gesture is cancelled first."""
-        if self._passing:
+    def apply(self, command: EditCommand, edit: Edit) -> None:
+        """Bring the document to the other side of *edit*, that of *command*; an open gesture is cancelled first."""
+        if self._passing or self._left_at is not None:
             return
         try:
             if self._document.gesture is not None:
                 self._document.gesture.cancel()
             self._document.apply(edit)
+        except CancelledError:
+            place = next(i for i in range(self.count()) if self.command(i) is command)
+            self._left_at, self._left = place + (edit is not command.edit), edit.label
+            QTimer.singleShot(0, self, self._come_back)
         except Exception:
             # The stack moves on whatever happens here, and a history that does not fit the clip can only harm it.
             QTimer.singleShot(0, self._drop_history)
@@ -107,18 +132,23 @@ class UndoStack(QUndoStack):
     def undo(self) -> None:
         """Take the last step back; nothing while a step is being taken already."""
         if not self._document.working:
+            self._come_back()
             super().undo()
+            self._come_back()
 
     @guarded()
     def redo(self) -> None:
         """Make the next step again; nothing while a step is being taken already."""
         if not self._document.working:
+            self._come_back()
             super().redo()
+            self._come_back()
 
     def _drop_history(self) -> None:
         if self._document.working:  # a step of this history is under way
             QTimer.singleShot(50, self, self._drop_history)
             return
+        self._left_at = None
         self._history += 1
         self.clear()
         self.resetClean()

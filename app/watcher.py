@@ -46,6 +46,7 @@ class Watcher(QObject):
         window = self._window
         window.undo_stack.indexChanged.connect(self._history_moved)
         window.undo_stack.indexChanged.connect(self._undone)
+        window.undo_stack.stayed.connect(self._stayed)
         window.undo_stack.cleanChanged.connect(self._history_moved)
         window.files.changed.connect(window.refresh_title)
         window.view.view_changed.connect(Soon(self, self._view_moved).ask)
@@ -91,6 +92,9 @@ class Watcher(QObject):
         if index < self._index:
             self._window.say("")
         self._index = index
+
+    def _stayed(self, label: str) -> None:
+        self._window.say(f"{label}: cancelled, nothing has changed")
 
     def _committed(self, edit: Edit) -> None:
         if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen

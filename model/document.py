@@ -37,10 +37,10 @@ MANY_KEYS: Final = 30_000
 class LongWork(Protocol):
     """Gives the result of *work*, or raises its error, after doing it on another thread while the caller waits.
 
-    *work* may raise CancelledError where it reports, if it is *stoppable*.
+    *work* may raise CancelledError where it reports.
     """
 
-    def __call__[T](self, text: str, work: Callable[[Report], T], *, stoppable: bool) -> T: ...
+    def __call__[T](self, text: str, work: Callable[[Report], T]) -> T: ...
 
 
 class Document:
@@ -93,12 +93,15 @@ class Document:
         return gesture.edit
 
     def apply(self, edit: Edit) -> None:
-        """Make the changes of an edit that was recorded, and select what was selected after it: undo and redo."""
+        """Make the changes of an edit that was recorded, and select what was selected after it: undo and redo.
+
+        CancelledError, and nothing has changed, if that was cancelled.
+        """
         self._require_rest()
         touched = Touched()
 
-        def work(_report: Report) -> None:
-            self._put_all(edit.changes, touched)
+        def work(report: Report) -> None:
+            self._put_all(edit.changes, touched, report=report)
 
         def work_at_length(report: Report) -> None:
             work(report)
@@ -106,8 +109,8 @@ class Document:
 
         if self.long_work is None or edit.key_count < MANY_KEYS:
             work(unheard)
-        else:  # the history goes on to the other side whatever happens here, so that it must come about
-            self._at_length(edit.label, work_at_length, stoppable=False)
+        else:
+            self._at_length(edit.label, work_at_length)
         active = edit.active_after if edit.active_after is not None else self.session.active
         self._tell(touched, edit.selection_after, active)
 
@@ -141,12 +144,12 @@ class Document:
         if self._working:
             raise RuntimeError("the clip is being changed by another thread")
 
-    def _at_length[T](self, text: str, work: Callable[[Report], T], *, stoppable: bool = True) -> T:
+    def _at_length[T](self, text: str, work: Callable[[Report], T]) -> T:
         """Have *work*, which tells nobody, done by `long_work`."""
         assert self.long_work is not None
         self._working = True
         try:
-            return self.long_work(text, work, stoppable=stoppable)
+            return self.long_work(text, work)
         finally:
             self._working = False
 
@@ -183,6 +186,7 @@ class Document:
                     stored += [] if done is None else [done]
                 for part in parts:
                     stored.append(put(self.clip, validated(part) if new else part, touched, read_back=read_back))
+            report(1.0)
             if new and (touched.membership or touched.settings):
                 check_whole(self.clip, touched)
         except BaseException:

@@ -214,24 +214,68 @@ def test_cancelled_it_has_never_been(window: MainWindow, gate: Gate, by: str) ->
     assert data(window) != before
 
 
-def test_an_undo_goes_through_and_shows_no_way_to_stop_it(window: MainWindow, gate: Gate) -> None:
-    before, row = data(window), progress(window)
-    gate.open()
-    nudge(window)
-    after = data(window)
+def cancelled_step(window: MainWindow, gate: Gate, take: Callable[[], object]) -> None:
+    """Take a step of the history, press Esc in it, and see that it has never been and can be taken again."""
+    here, before, selection = window.undo_stack.index(), data(window), window.session.selection
     gate._open.clear()
     seen = meanwhile(
-        lambda: (row.isVisible(), row.cancel.isVisible()),
+        lambda: progress(window).cancel.isVisible(),
         lambda: press_escape(window),
         gate.open,
         pause=PATIENCE_MILLISECONDS + 50,
     )
-    window.actions_by_id["edit.undo"].run()
-    assert seen[0] == (True, False)
+    take()
+    QApplication.processEvents()
+    assert seen[0] is True
     assert data(window) == before
-    assert window.undo_stack.index() == 0
-    window.actions_by_id["edit.redo"].run()
-    assert data(window) == after
+    assert window.undo_stack.index() == here
+    assert window.session.selection == selection
+    assert "cancelled" in window.status.message.text()
+    for channel in window.document.clip.channels:
+        channel.check()
+
+
+def test_an_undo_or_redo_that_is_cancelled_has_never_been(window: MainWindow, gate: Gate) -> None:
+    states, stack, actions = [data(window)], window.undo_stack, window.actions_by_id
+    gate.open()
+    for _ in range(3):
+        nudge(window)
+        states.append(data(window))
+    cancelled_step(window, gate, actions["edit.undo"].run)
+    cancelled_step(window, gate, lambda: stack.setIndex(0))  # as the list of steps does
+    actions["edit.undo"].run()
+    assert data(window) == states[2]
+    actions["edit.undo"].run()
+    cancelled_step(window, gate, actions["edit.redo"].run)
+    cancelled_step(window, gate, lambda: stack.setIndex(3))
+    actions["edit.redo"].run()
+    assert (data(window), stack.index()) == (states[2], 2)
+    stack.setIndex(0)
+    assert (data(window), stack.isClean()) == (states[0], True)
+
+
+def test_a_change_right_after_a_cancelled_undo_is_the_next_step(window: MainWindow, gate: Gate) -> None:
+    gate.open()
+    nudge(window)
+    once = data(window)
+    gate._open.clear()
+    meanwhile(lambda: press_escape(window), gate.open)
+    channel = window.document.clip.channels[0]
+    one = Selection.of_key(channel, channel.ids_between(0.0, 0.0)[0])
+    window.undo_stack.setIndex(0)
+    assert window.document.do("Raise", lambda clip: edits.nudge(clip, one, 0.0, 0.1)) is not None
+    assert window.undo_stack.index() == window.undo_stack.count() == 2
+    window.undo_stack.undo()
+    assert (data(window), window.undo_stack.index()) == (once, 1)
+
+
+def test_a_mark_right_after_a_cancelled_undo_is_where_the_document_is(window: MainWindow, gate: Gate) -> None:
+    gate.open()
+    nudge(window)
+    gate._open.clear()
+    meanwhile(lambda: press_escape(window), gate.open)
+    window.undo_stack.setIndex(0)
+    assert window.undo_stack.mark().step == 1
 
 
 def test_an_error_is_told_once_and_nothing_has_changed(window: MainWindow, gate: Gate) -> None:

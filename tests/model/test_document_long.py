@@ -21,13 +21,13 @@ class Worker:
     """Does long work at once; *meanwhile* is called in the middle of it, *stop_at* cancels at that report."""
 
     def __init__(self) -> None:
-        self.texts: list[tuple[str, bool]] = []
+        self.texts: list[str] = []
         self.shares: list[float] = []
         self.stop_at = -1
         self.meanwhile: Callable[[], object] = lambda: None
 
-    def __call__[T](self, text: str, work: Callable[[Report], T], *, stoppable: bool) -> T:
-        self.texts.append((text, stoppable))
+    def __call__[T](self, text: str, work: Callable[[Report], T]) -> T:
+        self.texts.append(text)
         self.shares = []
         self.meanwhile()
         return work(self._heard)
@@ -74,7 +74,7 @@ def test_it_is_the_same_edit_whoever_makes_it(desk: Desk) -> None:
     desk.document.apply(ours.inverse())
     other.document.apply(theirs.inverse())
     assert everything(desk.clip) == everything(other.clip)
-    assert desk.worker.texts == [("Raise", True), ("Raise", False)]
+    assert desk.worker.texts == ["Raise", "Raise"]
 
 
 def test_how_far_it_is_only_grows(desk: Desk) -> None:
