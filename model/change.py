@@ -280,7 +280,7 @@ def _time(field: str, value: Any) -> float:
 def _frame_rate(field: str, value: Any) -> float:
     number = _time(field, value)
     if number <= 0.0:
-        raise ValueError(f"{field} is {number}; it must be above 0 frames per second")
+        raise ValueError(f"the frame rate is {number:g}; it must be above 0")
     return number
 
 

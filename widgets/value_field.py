@@ -150,6 +150,8 @@ class ValueField(QLineEdit):
         try:
             words = self.target.preview(Formula(text))
         except (ExpressionError, ValueError) as error:
+            if not self._previewed:
+                self.target.cancel()  # it may have begun
             self._show_problem(str(error))
             return False
         self._previewed = True

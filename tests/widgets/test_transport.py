@@ -294,6 +294,21 @@ def test_numbers_that_cannot_be_are_refused_in_the_field(transport, document, na
     clip = document.clip
     assert (clip.frame_rate, clip.start, clip.end, document.session.playhead) == (10.0, 0.0, 2.0, 0.0)
     assert not field.editing
+    assert document.gesture is None
+
+
+def test_a_refused_number_leaves_the_graph_to_the_user(transport, document):
+    field = transport.fields["start"]
+    field.setFocus()
+    field.selectAll()
+    QTest.keyClicks(field, "5")  # behind the end
+    assert field.editing
+    assert document.gesture is None
+    QTest.keyClicks(field, "0")
+    QTest.keyClick(field, Key.Key_Backspace)
+    QTest.keyClick(field, Key.Key_Escape)
+    assert document.gesture is None
+    assert document.clip.start == 0.0
 
 
 def test_the_buttons_do_what_they_say(transport, session):

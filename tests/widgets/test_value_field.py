@@ -298,6 +298,15 @@ def test_keys_of_locked_channels_are_not_changed(inspector, document, edits):
     assert "locked" in inspector.key.fields["value"].toolTip()
 
 
+@pytest.mark.parametrize("text", ["1e999", "1/0", "sqrt(-1)", "nonsense"])
+def test_what_is_refused_holds_nothing_up(inspector, document, text):
+    select(inspector, document, tx=[1])
+    enter(inspector.key.fields["value"], text, then=None)
+    QTest.keyClick(inspector.key.fields["value"], Key.Key_Escape)
+    assert document.gesture is None
+    assert values(document) == [THIRD, 2, 4, 8]
+
+
 def test_typing_during_a_drag_is_refused(inspector, document):
     select(inspector, document, tx=[1])
     with document.begin("Drag"):
