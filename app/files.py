@@ -52,6 +52,7 @@ class Files(QObject):
         self._fingerprint: Fingerprint | None = None
         self._opened_losses: list[Loss] = []  # what the file lacked already when it was opened
         self._accepted_losses: list[Loss] = []
+        self._saved_state: Mark | None = None
         self._asked_about: Fingerprint | None = None
         self._closing = False  # the window, as soon as the job under way is over
         window.jobs.changed.connect(self._job_changed)
@@ -212,7 +213,7 @@ class Files(QObject):
             self._opened_losses = []
         self.path, self.name, self.format_name = path, display_name(path), format_name
         self._fingerprint = self._asked_about = saved.fingerprint
-        self._accepted_losses = saved.losses
+        self._accepted_losses, self._saved_state = saved.losses, state
         self._remember(path)
         whole = not self._lacking()
         confirmed = saved.result.durability is Durability.CONFIRMED
@@ -235,7 +236,8 @@ class Files(QObject):
         self._window.cancel_gesture()
         if not self.modified:
             return True
-        answer = self._window.questions.save_changes(self.name, self._lacking())
+        changed = not (self._saved_state and self._window.undo_stack.mark().same(self._saved_state))
+        answer = self._window.questions.save_changes(self.name, self._lacking(), changed=changed)
         if answer not in (Answer.NATIVE, Answer.SAVE):
             return answer is Answer.DISCARD
         before = self._window.undo_stack.mark()

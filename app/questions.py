@@ -43,10 +43,13 @@ class Questions:
     def __init__(self, parent: QWidget) -> None:
         self._parent = parent
 
-    def save_changes(self, name: str, lacking: Sequence[Loss] = ()) -> Answer:
-        """Before unsaved changes would be lost: SAVE, DISCARD or CANCEL; NATIVE if the file is *lacking* something."""
+    def save_changes(self, name: str, lacking: Sequence[Loss] = (), *, changed: bool = True) -> Answer:
+        """Before unsaved changes would be lost: SAVE, DISCARD or CANCEL; NATIVE if the file is *lacking* something.
+
+        *changed* says whether there is more to lose than that.
+        """
         if lacking:
-            return self._save_what_is_lacking(name, lacking)
+            return self._save_what_is_lacking(name, lacking, changed=changed)
         box = self._box(Icon.Warning, f"Save the changes to {name}?", "Otherwise what changed since is lost.")
         box.setStandardButtons(Standard.Save | Standard.Discard | Standard.Cancel)
         box.button(Standard.Discard).setText("&Don't Save")
@@ -55,8 +58,10 @@ class Questions:
         chosen = _run(box)
         return {Standard.Save: Answer.SAVE, Standard.Discard: Answer.DISCARD}.get(Standard(chosen), Answer.CANCEL)
 
-    def _save_what_is_lacking(self, name: str, lacking: Sequence[Loss]) -> Answer:
-        text = f"Only a Hermite clip keeps it all. What changed since {name} was saved would be lost too."
+    def _save_what_is_lacking(self, name: str, lacking: Sequence[Loss], *, changed: bool) -> Answer:
+        text = "Only a Hermite clip keeps it all."
+        if changed:
+            text += f" What changed since {name} was saved would be lost too."
         box = self._box(Icon.Warning, f"{name} does not hold all of this clip", f"{listed(lacking)}\n\n{text}")
         native = box.addButton("Save as &Hermite Clip…", Role.AcceptRole)
         again = box.addButton(f"&Save to {Path(name).suffix or 'the File'}", Role.AcceptRole)

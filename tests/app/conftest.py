@@ -27,12 +27,14 @@ class Answers(Questions):
         self.asked: list[str] = []
         self.told: list[str] = []
         self.answers: dict[str, object] = {}
+        self.changed = True  # as it was told when it was last asked to save changes
 
     def _answer[T](self, question: str, otherwise: T) -> T:
         self.asked.append(question)
         return self.answers.get(question, otherwise)  # type: ignore[return-value]
 
-    def save_changes(self, name: str, lacking: object = ()) -> Answer:
+    def save_changes(self, name: str, lacking: object = (), *, changed: bool = True) -> Answer:
+        self.changed = changed
         return self._answer("save_changes", Answer.CANCEL)
 
     def lossy_save(self, name: str, losses: object) -> Answer:

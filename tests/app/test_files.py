@@ -144,6 +144,7 @@ def test_a_clip_that_its_file_cannot_hold_stays_unsaved_and_is_asked_about_on_cl
     assert window.status.message.text() == said
     answers.asked.clear()
     assert not window.close()
+    assert not answers.changed
     answers.answers |= {"save_changes": Answer.NATIVE, "path_to_save": (str(tmp_path / "out.hermite"), "hermite")}
     assert window.close()
     assert answers.asked == ["save_changes", "save_changes", "path_to_save"]

@@ -77,6 +77,20 @@ def test_each_button_gives_its_answer(questions: Questions, ask: Ask, button: st
     assert ask(questions) == answer
 
 
+@pytest.mark.parametrize("changed", [True, False])
+def test_only_what_has_changed_is_said_to_be_lost_too(questions: Questions, changed: bool) -> None:
+    texts = []
+
+    def read(dialog: QDialog) -> None:
+        assert isinstance(dialog, QMessageBox)
+        texts.append(dialog.informativeText())
+        dialog.reject()
+
+    in_the_dialog(read)
+    questions.save_changes(NAME, LOST, changed=changed)
+    assert ("would be lost too" in texts[0]) is changed
+
+
 @pytest.mark.parametrize(("ask", "answer"), ESCAPED)
 def test_esc_is_cancel_and_names_are_shown_as_they_are(questions: Questions, ask: Ask, answer: object) -> None:
     def escape(dialog: QDialog) -> None:
