@@ -49,12 +49,13 @@ class MouseRouter(QObject):
         super().__init__(parent)
         self.graph = graph
         self.navigation = Navigation(graph)
-        self.strokes = Strokes(self._taker)
+        self.strokes = Strokes(self._taker, self._pan_back)
         self._tools: dict[str, Tool] = {}
         self._hint = ""
         self._pointer: tuple[QPointF, Qt.MouseButton] | None = None  # where it is and what is held, while over the view
         self._modifiers = Modifier.NoModifier
         self._edge = QTimer(self, interval=EDGE_INTERVAL)
+        self._pushed = QPointF()  # how far the edge has moved the picture in this stroke, in logical pixels
         self._edge.timeout.connect(self._scroll)
         self._later = QTimer(self, singleShot=True, interval=0)
         self._later.timeout.connect(self._refresh)
@@ -136,6 +137,8 @@ class MouseRouter(QObject):
         if other is not None and event.button() == Button.LeftButton and not self.busy:
             self._say(f"Finish or cancel the other change first: {other.label}")
             return True
+        if not self.busy:
+            self._pushed = QPointF()
         self.strokes.press(self._point_of(event), double=double, alone=alone)
         return self._taken(event)
 
@@ -158,6 +161,7 @@ class MouseRouter(QObject):
 
     def _wheel(self, event: QWheelEvent) -> bool:
         wheeled(self.graph, event)
+        self._pushed = QPointF()  # the user has chosen what to see
         if self.busy:
             self._again()
         event.accept()
@@ -316,7 +320,15 @@ class MouseRouter(QObject):
     def _scroll(self) -> None:
         dx, dy = self._push()
         if dx or dy:
-            self.graph.pan_pixels(-dx * EDGE_INTERVAL / 1000, -dy * EDGE_INTERVAL / 1000)
+            push = QPointF(dx, dy) * (EDGE_INTERVAL / 1000)
+            self._pushed += push
+            self.graph.pan_pixels(-push.x(), -push.y())
             self._again()
         else:
             self._edge.stop()
+
+    def _pan_back(self) -> None:
+        """Show what was in view before a drag at the edge moved the picture."""
+        push, self._pushed = self._pushed, QPointF()
+        if not push.isNull():
+            self.graph.pan_pixels(push.x(), push.y())

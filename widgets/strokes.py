@@ -21,12 +21,13 @@ class State(Enum):
 
 
 class Strokes:
-    """The state machine of one mouse; *taker* says which tool a press is meant for."""
+    """The state machine of one mouse; *taker* says which tool a press is meant for, *cancelled* hears of its end."""
 
-    def __init__(self, taker: Callable[[Point], Tool]) -> None:
+    def __init__(self, taker: Callable[[Point], Tool], cancelled: Callable[[], None] = lambda: None) -> None:
         self.state = State.IDLE
         self.tool: Tool | None = None
         self._taker = taker
+        self._cancelled = cancelled
         self.start = Point(0.0, 0.0, 0.0, 0.0)
         self._last = self.start
 
@@ -86,6 +87,7 @@ class Strokes:
         if self.busy and self.tool is not None:
             self.state = State.SPENT
             self.tool.cancel()
+            self._cancelled()
 
     def _hover(self, point: Point) -> None:
         tool = self._taker(point)
