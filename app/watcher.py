@@ -1,13 +1,13 @@
 """Watcher: keeps title, actions and the selection's summary true while the document and the session change."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QLineEdit
 from shiboken6 import isValid
 
 from model.channel import Channel
-from model.document import Edit
+from model.document import Edit, Splice
 from model.labels import counted, keys_text
 from widgets.fitting import MARGINS
 from widgets.soon import Soon
@@ -16,6 +16,10 @@ from widgets.view_range import fitted
 
 if TYPE_CHECKING:
     from app.main_window import MainWindow
+
+
+# What is inserted changes few keys beside it; longer runs are something else.
+MOST_BESIDE: Final = 8
 
 
 class Watcher(QObject):
@@ -99,6 +103,9 @@ class Watcher(QObject):
     def _committed(self, edit: Edit) -> None:
         if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen
             self._window.say(edit.label)
+        elif beside := fixed_beside(edit):
+            keys = "the key beside it is" if beside == 1 else f"{counted(beside, 'key')} beside it are"
+            self._window.say(f"{edit.label}: {keys} fixed now, so that the curve keeps its shape")
 
     def _view_moved(self) -> None:
         if isValid(self._window):
@@ -119,6 +126,17 @@ class Watcher(QObject):
         first, last = channel.first, channel.last
         if first is not None and last is not None:
             self._window.view.set_view(fitted(first.time, last.time, *channel.extrema(), MARGINS))
+
+
+def fixed_beside(edit: Edit) -> int:
+    """How many keys have other rules than before beside one that was inserted."""
+    count = 0
+    for change in edit.changes:
+        if isinstance(change, Splice) and len(change.before) < len(change.after) <= MOST_BESIDE:
+            rules = {key["id"]: (key["rule_in"], key["rule_out"]) for key in change.before}
+            kept = [key for key in change.after if key["id"] in rules]
+            count += sum(rules[key["id"]] != (key["rule_in"], key["rule_out"]) for key in kept)
+    return count
 
 
 def selection_summary(window: "MainWindow") -> str:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from model.channel import Channel
 from model.document import Document, Setting
+from model.selection import Selection
 from model.session import Session
 
 
@@ -47,8 +48,18 @@ def lock_label(channels: Sequence[Channel], locked: bool) -> str:
 
 
 def set_locked(document: Document, channels: Sequence[Channel], locked: bool) -> None:
-    """Lock or unlock; can be undone."""
-    document.do(lock_label(channels, locked), lambda clip: settings(channels, "locked", locked))
+    """Lock, which takes the keys out of the selection, or unlock; can be undone."""
+    selection = document.session.selection
+    document.do(
+        lock_label(channels, locked),
+        lambda clip: settings(channels, "locked", locked),
+        selection=lambda _changes: unlocked(selection),
+    )
+
+
+def unlocked(selection: Selection) -> Selection:
+    """The keys among these that can be changed."""
+    return selection.with_only(channel for channel in selection.channels if not channel.locked)
 
 
 def set_color(document: Document, channels: Sequence[Channel], color: str | None) -> None:

@@ -8,9 +8,10 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeView, QWidget
 
 from model.channel import Channel
 from model.document import Document, Gesture
+from model.selection import Selection
 from widgets.channel_cells import GAP, SWATCH, ChannelCells, SeenValue
 from widgets.channel_rows import TOGGLES, ChannelRows, Column
-from widgets.channel_verbs import lock_label, set_shown, set_solo, settings
+from widgets.channel_verbs import lock_label, set_shown, set_solo, settings, unlocked
 from widgets.colors import mix
 from widgets.guard import guarded
 from widgets.theme import Theme
@@ -41,6 +42,7 @@ class Brush(NamedTuple):
     turn_on: bool
     touched: list[Channel]
     gesture: Gesture | None
+    selection: Selection
 
 
 class ChannelView(QTreeView):
@@ -180,7 +182,7 @@ class ChannelView(QTreeView):
                 self.refused.emit("Finish the drag first, or press Esc to cancel it")
                 return
             gesture = self._document.begin(lock_label(channels, turn_on))
-        self._brush = Brush(column, turn_on, [], gesture)
+        self._brush = Brush(column, turn_on, [], gesture, self._document.session.selection)
         self._touch(channels)
 
     def _touch(self, channels: list[Channel]) -> None:
@@ -198,7 +200,11 @@ class ChannelView(QTreeView):
             set_solo(session, new, brush.turn_on)
         elif brush.gesture is not None:
             label = lock_label(brush.touched, brush.turn_on)
-            brush.gesture.preview(lambda clip: settings(brush.touched, "locked", brush.turn_on), label=label)
+            brush.gesture.preview(
+                lambda clip: settings(brush.touched, "locked", brush.turn_on),
+                selection=lambda _changes: unlocked(brush.selection),
+                label=label,
+            )
 
     def _end_brush(self) -> None:
         brush, self._brush = self._brush, None

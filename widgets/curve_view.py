@@ -1,5 +1,6 @@
 """CurveView: the graph; owns the view onto time and value, paints through its canvas, hands input to the mouse."""
 
+from collections.abc import Sequence
 from time import monotonic
 from typing import Any, Final, overload
 
@@ -16,7 +17,7 @@ from model.keyframe import KeyGoneError
 from model.sampling import Window
 from widgets.canvas import Canvas
 from widgets.chosen import MOST, with_neighbours
-from widgets.fitting import active_fitted, all_fitted, clip_fitted, selection_fitted
+from widgets.fitting import active_fitted, all_fitted, channels_fitted, clip_fitted, selection_fitted
 from widgets.graph import DrawnHandle, Frame, Spot
 from widgets.guard import guarded
 from widgets.hit_test import Hit
@@ -227,11 +228,12 @@ class CurveView(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not type
         """Show all keys and the clip's range, as a clip is shown that has just been opened; nothing to go back to."""
         self.set_view(clip_fitted(self.document), remember=False)
 
-    def frame_selection(self) -> None:
-        """Show the selected keys; if there are none all of the active channel, else everything."""
+    def frame_selection(self, channels: Sequence[Channel] = ()) -> None:
+        """Show the selected keys; if there are none all of *channels*, of the active channel, or else everything."""
         self._last_step = -ONE_STEP
         document = self.document
-        self.set_view(selection_fitted(document) or active_fitted(document) or all_fitted(document))
+        found = selection_fitted(document) or channels_fitted(document, channels) or active_fitted(document)
+        self.set_view(found or all_fitted(document))
 
     @property
     def can_go_back(self) -> bool:

@@ -37,10 +37,14 @@ def clip_fitted(document: Document) -> ViewRange:
 
 def active_fitted(document: Document) -> ViewRange | None:
     """All keys of the active channel, lowest to highest; None if it is not shown or has no key."""
-    channel = document.session.active
-    if channel is None or not len(channel) or not document.session.shown(channel):
-        return None
-    return _fitted_channels(document.clip, [channel])
+    active = document.session.active
+    return None if active is None else channels_fitted(document, [active])
+
+
+def channels_fitted(document: Document, channels: Iterable[Channel]) -> ViewRange | None:
+    """All keys of *channels*, lowest to highest; None if none of them is shown and has a key."""
+    seen = [channel for channel in channels if len(channel) and document.session.shown(channel)]
+    return _fitted_channels(document.clip, seen) if seen else None
 
 
 def _fitted_channels(clip: Clip, channels: Iterable[Channel]) -> ViewRange:

@@ -71,7 +71,9 @@ def _paste(how: Paste, window: "MainWindow") -> None:
         count = sum(int((splice.after["id"] == 0).sum()) for splice in splices)
         places = channels_text(dict.fromkeys(splice.channel for splice in splices))
         label = f"Paste {counted(count, 'key')} into {places}"
-        window.document.do(label, lambda clip: changes, selection=added_keys, keys=count)
+        edit = window.document.do(label, lambda clip: changes, selection=added_keys, keys=count)
+        if edit is not None and not edit.replaced:
+            window.say(label.replace("Paste", "Pasted", 1))
         if count < copied.key_count:
             window.say(f"{label}: for the other {copied.key_count - count} there is no unlocked channel")
     except CancelledError:

@@ -12,8 +12,11 @@ if TYPE_CHECKING:
 SHOWING = ("tangent.menu", "curve.menu", "edit.paste_special")
 
 
-def pop_up_menu(window: "MainWindow", *paths: str) -> None:
-    """Show the menus of *paths* as one, at the mouse; in the graph's middle if the mouse is elsewhere."""
+def pop_up_menu(window: "MainWindow", *paths: str, of: str = "") -> None:
+    """Show the menus of *paths* as one, at the mouse; in the graph's middle if the mouse is elsewhere.
+
+    Their titles say *of* what they are.
+    """
     at, graph = QCursor.pos(), window.view
     if not graph.rect().contains(graph.mapFromGlobal(at)):
         at = graph.mapToGlobal(graph.rect().center())
@@ -24,6 +27,6 @@ def pop_up_menu(window: "MainWindow", *paths: str) -> None:
     for path in paths:
         source = window.menus[path]
         if len(paths) > 1:
-            menu.addSection(source.title().replace("&", ""))
+            menu.addSection(source.title().replace("&", "") + (f" of {of}" if of else ""))
         menu.addActions([action for action in source.actions() if action not in shown])
     menu.popup(at)
