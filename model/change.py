@@ -14,6 +14,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
 from model.keyframe import Run
+from model.mapping import Mapping
 from model.selection import Selection
 
 LONGEST_TEXT = 1024
@@ -57,15 +58,14 @@ class Membership(NamedTuple):
 
 
 class Shift(NamedTuple):
-    """The keys *before* of *channel*, which need not be neighbours, move alike: splices that are seldom asked for.
+    """The keys *before* of *channel*, which need not be neighbours, change alike: splices that are seldom asked for.
 
     None of its keys may be changed by what is put in before it.
     """
 
     channel: Channel
     before: Run
-    d_time: float
-    d_value: float
+    mapping: Mapping
     slack: float  # keys that come no more than so many seconds near to each other are a matter for splices
     splices: Callable[[], list[Splice]]  # the same as splices, worked out while the channel is as it was
 
@@ -147,7 +147,7 @@ class Touched:
 
 def shifted(shift: Shift, touched: Touched) -> Change | None:
     """Put *shift* in by its channel's short way; it, or the splice it was, or None if that way is closed."""
-    done = shift.channel.shift(shift.before, shift.d_time, shift.d_value, shift.slack)
+    done = shift.channel.shift(shift.before, shift.mapping, shift.slack)
     if done is None:
         return None
     touched.widen(shift.channel, done.t0, done.t1)

@@ -12,6 +12,7 @@ from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
 from model.keyframe import Keyframe, Run
+from model.mapping import Added, Mapping
 from model.resorting import MOST_RESORTED, Resorting
 from model.rewinding import Question, Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
@@ -284,26 +285,26 @@ class Channel(Curve):
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
         return Spliced(t0, t1, after, same_ids)
 
-    def shift(self, before: Run, d_time: float, d_value: float, slack: float) -> Shifted | None:
-        """Move the keys *before* alike, by a way shorter than splices and with the same outcome.
+    def shift(self, before: Run, mapping: Mapping, slack: float) -> Shifted | None:
+        """Change the keys *before* alike, by a way shorter than splices and with the same outcome.
 
         None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for all of very
-        many keys or many of not very many, whose new places are more than *slack* seconds from other keys.
+        many keys, or many of not very many that are only moved and come more than *slack* seconds from other keys.
         """
         rows = self._rows
         start = rows.start
         if start is None or start.left:
             return None
         if rows.many and len(before) == rows.size and not splicing.rank_of_run(rows, before, before):
-            rank0, rank1, same_order, sides = 0, rows.size, True, None
+            rank0, rank1, same_order, sides = 0, rows.size, not mapping.mirrored, None
             old = splicing.outer(rows, 0, rows.size)
-            if not shift(rows, start, d_time, d_value):
+            if not shift(rows, start, before, mapping):
                 return None
-        elif rows.size <= MOST_RESORTED:
+        elif rows.size <= MOST_RESORTED and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
             if start.resorting is None or start.resorting.keys is not before:
                 start.resorting = Resorting(rows, before)
             resorting = start.resorting
-            resorted = resorting.moved(d_time, d_value, slack)
+            resorted = resorting.moved(mapping.time, mapping.value, slack)
             if resorted is None:
                 return None
             rank0, rank1, order = resorted

@@ -288,7 +288,8 @@ class Gesture:
         if before.base is not None:  # a part of a larger run, which the history need not hold
             before = before.copy()
         try:  # what is shifted as a whole has the same keys on both sides
-            return Splice(channel, before, channel.stored(before if isinstance(change, Shift) else change.after))
+            after = change.after if isinstance(change, Splice) else before[:: -1 if change.mapping.mirrored else 1]
+            return Splice(channel, before, channel.stored(after))
         except ValueError:
             return unshifted([change])[0]
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from model import hermite
 from model.hermite import Floats
 from model.keyframe import Run, TangentRule
+from model.mapping import Added
 from model.rewinding import Start
 from model.rows import D_TIME, RULE_IN, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, C, Rows, Slots
 from model.tangents import slopes_of
@@ -48,15 +49,14 @@ class Resorting:
         self._steps = np.arange(len(keys))
         self._table = np.empty((D_TIME + 1, rows.size))
 
-    def moved(self, d_time: float, d_value: float, slack: float) -> Resorted | None:
+    def moved(self, d_time: Added, d_value: Added, slack: float) -> Resorted | None:
         """Work out the keys moved by both; None if two come within *slack* seconds or a number is unusually large."""
         with np.errstate(all="ignore"):
             return self._moved(d_time, d_value, slack)
 
-    def _moved(self, d_time: float, d_value: float, slack: float) -> Resorted | None:
-        # Adding -0.0 leaves every number as it is, 0.0 would turn -0.0 into 0.0.
-        times, values = self._times + (d_time or -0.0), self._values + (d_value or -0.0)
-        places = self._other_times.searchsorted(times) + self._steps if d_time else self._chosen
+    def _moved(self, d_time: Added, d_value: Added, slack: float) -> Resorted | None:
+        times, values = d_time.to(self._times), d_value.to(self._values)
+        places = self._other_times.searchsorted(times) + self._steps if d_time.amount else self._chosen
         same = places is self._chosen or bool((places == self._chosen).all())
         order = None if same else self._order(places)
         table = self._table

@@ -1,4 +1,4 @@
-"""Shifting: all keys of a channel moved alike, from the rows of a gesture's start straight into rows of the same shape.
+"""Shifting: all keys of a channel changed alike, from those of a gesture's start straight into rows of the same shape.
 
 Columns are read once, and what follows from them is worked out while they are in the processor's cache. Whatever is
 unusual is left to a splice, which gives the same numbers.
@@ -8,71 +8,128 @@ from math import inf, isfinite
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from model.blocks import Block
 from model.hermite import Floats
-from model.keyframe import TangentRule
+from model.keyframe import Run, TangentRule
+from model.mapping import Mapping, mirrored
 from model.rewinding import Start
-from model.rows import D_TIME, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, B, C, Rows
-from model.tangents import slope_between, slopes_of
+from model.rows import (
+    D_TIME,
+    MARK_FIELDS,
+    NUMBER_FIELDS,
+    RULE_IN,
+    RULE_OUT,
+    SLOPE_IN,
+    SLOPE_OUT,
+    TIME,
+    VALUE,
+    A,
+    B,
+    C,
+    Rows,
+)
+from model.tangents import Marks, slope_between, slopes_of
 
 
-def shift(rows: Rows, start: Start, d_time: float, d_value: float) -> bool:
-    """Move all keys of the start of a gesture; False, and nothing has changed, if that is left to a splice."""
-    if start.shifting is None:
-        start.shifting = Shifting(rows)
+def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
+    """Change *keys*, all those of the start of a gesture; False, and nothing has changed, if a splice must do it."""
+    shifting = start.shifting
+    if shifting is None or shifting.keys is not keys:
+        shifting = start.shifting = Shifting(rows, keys)
     twins = start.twin_grids(rows)
-    if not start.shifting.fill(rows, twins[0], d_time, d_value):
+    if not shifting.fill(rows, twins[0], mapping):
         start.give_back(twins)
         return False
-    start.set_aside(rows, keys_move=False)
+    start.set_aside(rows, keys_move=mapping.mirrored)
+    if mapping.mirrored:
+        start.write_keys()
+        twins[1][:], twins[2][:] = shifting.mirrored_keys(rows)
+        rows.row_of[twins[2]] = np.arange(rows.rows, dtype=np.int32)[:, None]
+    rows.minus_zero |= mapping.makes_minus_zero
     rows.take_over(twins, rows.first.copy(), twins[0][TIME, :, 0].tolist())
     return True
 
 
 class _Piece(NamedTuple):
-    """Rows that hold equally many keys, and what lies around them."""
+    """Rows that hold equally many keys."""
 
     block: Block
-    around: Floats  # (time, value) of the key before and of the two keys after: (2, 3)
     last: int  # how far behind the key before the last key of the channel lies
     smooth: bool  # whether all slopes that count are smooth ones
 
 
+class _Side:
+    """All keys in one order, in columns that repeat the first and the last key twice."""
+
+    def __init__(self, rows: Rows, run: Run) -> None:
+        self.run = run
+        places = slice(2, -2)
+        self.numbers = np.empty((len(NUMBER_FIELDS), len(run) + 4))
+        self.rules = np.empty((2, len(run) + 4), np.uint8)
+        for field, column in NUMBER_FIELDS:
+            self.numbers[column, places] = run[field]
+        self.rules[RULE_IN, places], self.rules[RULE_OUT, places] = run["rule_in"], run["rule_out"]
+        for columns in (self.numbers, self.rules):
+            columns[:, :2], columns[:, -2:] = columns[:, 2:3], columns[:, -3:-2]
+        self.pieces = [self._piece(block) for block in rows.blocks(0, rows.size)]
+
+    def _piece(self, block: Block) -> _Piece:
+        begin, end = block.rank, block.rank + block.rows * block.held
+        smooth = bool((self.rules[:, begin + 2 : end + 3] == TangentRule.SMOOTH).all())
+        return _Piece(block, len(self.run) - block.rank, smooth)
+
+
 class Shifting:
-    """What is known of the rows of a start that are shifted again and again, and memory to do it in."""
+    """What is known of the keys of a start that are changed again and again, and memory to do it in."""
 
-    def __init__(self, rows: Rows) -> None:
-        blocks = rows.blocks(0, rows.size)
-        self._pieces = [_piece(rows, block) for block in blocks]
-        self._room = np.empty((6, max(block.rows * block.held for block in blocks) + 3))
+    def __init__(self, rows: Rows, keys: Run) -> None:
+        self.keys = keys
+        self._sides: dict[bool, _Side] = {}
+        self._mirrored_keys: tuple[Marks, NDArray[np.int32]] | None = None
+        most = max(block.rows * block.held for block in rows.blocks(0, rows.size))
+        self._room = np.empty((6, most + 3))
 
-    def fill(self, rows: Rows, numbers: Floats, d_time: float, d_value: float) -> bool:
-        """Fill *numbers*, a grid like that of *rows*, with the keys moved by both; False if a splice must do it."""
-        first, last = float(rows.times[0]) + d_time, float(rows.times[-1]) + d_time
-        if not isfinite(last - first):
-            return False
-        # Adding -0.0 leaves every number as it is, 0.0 would turn -0.0 into 0.0.
-        moves = np.array([[d_time or -0.0], [d_value or -0.0]])
+    def _side(self, rows: Rows, turned: bool) -> _Side:
+        """The keys in the order that they were in, or the other way round."""
+        if turned not in self._sides:
+            self._sides[turned] = _Side(rows, mirrored(self.keys) if turned else self.keys)
+        return self._sides[turned]
+
+    def fill(self, rows: Rows, numbers: Floats, mapping: Mapping) -> bool:
+        """Fill *numbers*, a grid like that of *rows*, with the keys as they become; False if a splice must do it."""
+        side = self._side(rows, mapping.mirrored)
         with np.errstate(all="ignore"):
-            return all(_fill_piece(rows, numbers, piece, moves, self._room) for piece in self._pieces)
+            first, last = mapping.time.to(side.numbers[TIME, [0, -1]])
+            if not isfinite(last - first):
+                return False
+            return all(_fill_piece(numbers, piece, side, mapping, self._room) for piece in side.pieces)
+
+    def mirrored_keys(self, rows: Rows) -> tuple[Marks, NDArray[np.int32]]:
+        """Grids like those of *rows* of the marks and ids of the keys in reverse order."""
+        if self._mirrored_keys is None:
+            run = self._side(rows, True).run
+            marks, ids = self._mirrored_keys = np.empty_like(rows.mark_grid), np.empty_like(rows.id_grid)
+            for rank, row, count, _, _, held in rows.blocks(0, rows.size):
+                here = run[rank : rank + count * held].reshape(count, held)
+                for field, column in MARK_FIELDS:
+                    marks[column, row : row + count, :held] = here[field]
+                ids[row : row + count, :held] = here["id"]
+                for grid in (marks, ids[None]):
+                    grid[:, row : row + count, held:] = grid[:, row : row + count, held - 1 : held]
+        return self._mirrored_keys
 
 
-def _piece(rows: Rows, block: Block) -> _Piece:
-    end = block.rank + block.rows * block.held
-    around = rows.slots(np.clip([block.rank - 1, end, end + 1], 0, rows.size - 1))
-    smooth = bool((rows.rules(block.rank, min(end + 1, rows.size)) == TangentRule.SMOOTH).all())
-    return _Piece(block, rows.numbers[: VALUE + 1].take(around, axis=1), rows.size - block.rank, smooth)
-
-
-def _fill_piece(rows: Rows, numbers: Floats, piece: _Piece, moves: Floats, room: Floats) -> bool:
-    (rank, row, count, _, _, held), around, last, smooth = piece
-    n, shape, here = count * held, (count, held), np.s_[row : row + count, :held]
-    grid = numbers[:, *here]
+def _fill_piece(numbers: Floats, piece: _Piece, side: _Side, mapping: Mapping, room: Floats) -> bool:
+    (rank, row, count, _, _, held), last, smooth = piece
+    n, shape = count * held, (count, held)
+    grid = numbers[:, row : row + count, :held]
     # The key before, those of the piece, and two keys after for the last span and the slope at its end.
     t, v = keys = room[: VALUE + 1, : n + 3]
-    np.add(rows.number_grid[: VALUE + 1, *here], moves[:, :, None], out=keys[:, 1 : n + 1].reshape(2, *shape))
-    keys[:, 0 :: n + 1], keys[:, n + 2] = (around + moves)[:, :2], (around + moves)[:, 2]
+    here = slice(rank + 1, rank + n + 4)
+    mapping.time.to(side.numbers[TIME, here], out=t)
+    mapping.value.to(side.numbers[VALUE, here], out=v)
     if rank == 0:
         t[0] = -inf
     t[last + 1 :] = inf
@@ -87,16 +144,21 @@ def _fill_piece(rows: Rows, numbers: Floats, piece: _Piece, moves: Floats, room:
             return False
         slope_in = slope_out = slopes
     else:
-        slope_in, slope_out = _by_rule(rows, t, v, rank, last)
+        found = _by_rule(side, t, v, rank, last, mapping.slope)
+        if found is None:
+            return False
+        slope_in, slope_out = found
     grid[: VALUE + 1] = keys[:, 1 : n + 1].reshape(2, *shape)
     grid[SLOPE_IN], grid[SLOPE_OUT] = slope_in[:n].reshape(shape), slope_out[:n].reshape(shape)
     grid[D_TIME] = d_time[:n].reshape(shape)
     _fill_coefficients(grid, d_time, v, slope_in, slope_out, d_value, spare, shape)
     if not smooth:
-        grid[A : C + 1, rows.mark_grid[RULE_OUT, *here] == TangentRule.STEP] = 0.0
+        steps = side.rules[RULE_OUT, rank + 2 : rank + n + 2].reshape(shape) == TangentRule.STEP
+        if steps.any():
+            grid[A : C + 1, steps] = 0.0
     if last == n:
         grid[A : C + 1, -1, -1] = 0.0
-    if held < rows.width:
+    if held < numbers.shape[2]:
         numbers[:, row : row + count, held:] = grid[:, :, -1:]
     return True
 
@@ -114,13 +176,18 @@ def _smooth(t: Floats, v: Floats, rank: int, last: int, d_value: Floats, d_time:
     return isfinite(slopes.sum())
 
 
-def _by_rule(rows: Rows, t: Floats, v: Floats, rank: int, last: int) -> tuple[Floats, Floats]:
-    """(slopes in, slopes out) of keys by whatever rules, and of the key after them."""
+def _by_rule(side: _Side, t: Floats, v: Floats, rank: int, last: int, factor: float) -> tuple[Floats, Floats] | None:
+    """(slopes in, slopes out) of keys by whatever rules, and of the key after them; None if one is unusually large."""
     begin, end = int(rank == 0), min(last + 1, len(t))
-    left = rank - 1
-    _, _, given_in, given_out = rows.columns(left + begin, left + end, stop=SLOPE_OUT + 1)
-    rules_in, rules_out = rows.rules(left + begin, left + end)
-    slope_in, slope_out = slopes_of(t[begin:end], v[begin:end], given_in, given_out, rules_in, rules_out)
+    here = slice(rank + 1 + begin, rank + 1 + end)
+    given, rules = side.numbers[SLOPE_IN : SLOPE_OUT + 1, here], side.rules[:, here]
+    if factor != 1.0:
+        fixed = rules == TangentRule.FIXED
+        if fixed.any():
+            given = np.where(fixed, given * factor, given)
+            if not isfinite(given.sum()):
+                return None
+    slope_in, slope_out = slopes_of(t[begin:end], v[begin:end], *given, *rules)
     # Behind the last key anything will do.
     return np.append(slope_in[1 - begin :], 0.0), np.append(slope_out[1 - begin :], 0.0)
 

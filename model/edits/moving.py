@@ -12,6 +12,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.hermite import LARGEST, Floats
 from model.keyframe import KEY_DTYPE, Run, TangentRule
+from model.mapping import Added, Mapping, Stretched, mirrored
 from model.placing import placed, rounding_slack, slack_at, strictly_increasing
 from model.selection import Selection
 
@@ -80,7 +81,7 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
             continue
         first, last = float(keys["time"][0]), float(keys["time"][-1])
         slack = slack_at(first, last, first + d_time, last + d_time) if d_time and len(keys) < len(channel) else 0.0
-        changes.append(Shift(channel, keys, d_time, d_value, slack, splices))
+        changes.append(Shift(channel, keys, Mapping(Added(d_time), Added(d_value)), slack, splices))
     return changes
 
 
@@ -154,26 +155,44 @@ def scale(
     require_finite(center_time=center_time, center_value=center_value, f_time=f_time, f_value=f_value)
     if abs(f_time) < SMALLEST_FACTOR:
         f_time = float(np.copysign(SMALLEST_FACTOR, f_time))
+    mapping = Mapping(
+        Stretched(center_time, f_time) if f_time != 1.0 else Added(0.0),
+        Stretched(center_value, f_value) if f_value != 1.0 else Added(0.0),
+        f_value / f_time if f_value != f_time else 1.0,
+    )
     changes: list[Change] = []
     for channel, keys in selected_keys(selection):
-        rows = keys.copy()
-        with np.errstate(over="ignore"):
-            if f_value != 1.0:
-                rows["value"] = _scaled(keys["value"], center_value, f_value)
-            if f_value != f_time:
-                _scale_slopes(rows, f_value / f_time)
-            slack = 0.0
-            if f_time != 1.0:
-                rows["time"] = _scaled(keys["time"], center_time, f_time)
-                if f_time < 0.0:
-                    rows = _mirrored(rows)
-                rows["time"] = strictly_increasing(rows["time"])
-                slack = rounding_slack(keys, rows)
-        changes += placed(channel, keys, rows, slack=slack)
+        splices = partial(_scaled_splices, channel, keys, mapping)
+        if FEW <= len(keys) == len(channel):
+            changes.append(Shift(channel, keys, mapping, 0.0, splices))
+        else:
+            changes += splices()
     return changes
 
 
-def _scaled(numbers: Floats, center: float, factor: float) -> Floats:
+def _scaled_splices(channel: Channel, keys: Run, mapping: Mapping) -> list[Splice]:
+    """The splices that give *keys* the numbers that they become by *mapping*."""
+    rows = keys.copy()
+    slack = 0.0
+    with np.errstate(over="ignore"):
+        if isinstance(mapping.value, Stretched):
+            rows["value"] = _scaled(keys["value"], mapping.value)
+        if mapping.slope != 1.0:
+            _scale_slopes(rows, mapping.slope)
+        if isinstance(mapping.time, Stretched):
+            rows["time"] = _scaled(keys["time"], mapping.time)
+            if mapping.mirrored:
+                rows = mirrored(rows)
+            rows["time"] = strictly_increasing(rows["time"])
+            slack = rounding_slack(keys, rows)
+    if FEW <= len(keys) == len(channel):
+        return [Splice(channel, keys, rows)]
+    return placed(channel, keys, rows, slack=slack)
+
+
+def _scaled(numbers: Floats, stretched: Stretched) -> Floats:
+    """*numbers* as they become, with what no double can hold on the way at the end of its range."""
+    center, factor = stretched
     return clamped(center + clamped(clamped(numbers - center) * factor))
 
 
@@ -181,20 +200,6 @@ def _scale_slopes(rows: Run, factor: float) -> None:
     for side in ("in", "out"):
         fixed = rows[f"rule_{side}"] == TangentRule.FIXED
         rows[f"slope_{side}"][fixed] = clamped(rows[f"slope_{side}"][fixed] * factor)
-
-
-def _mirrored(rows: Run) -> Run:
-    """*rows* in reverse order with their sides exchanged; a span that one of them held is held by the other end."""
-    turned = rows[::-1].copy()
-    turned["slope_in"], turned["slope_out"] = rows["slope_out"][::-1], rows["slope_in"][::-1]
-    rules_in, rules_out = rows["rule_in"], rows["rule_out"]
-    held = rules_out == TangentRule.STEP
-    new_in = np.where(held, TangentRule.FLAT, rules_out)
-    new_out = rules_in.copy()
-    new_out[1:][held[:-1]] = TangentRule.STEP
-    turned["rule_in"], turned["rule_out"] = new_in[::-1], new_out[::-1]
-    turned["broken"] |= (turned["rule_in"] != turned["rule_out"]) & (turned["rule_out"] != TangentRule.STEP)
-    return turned
 
 
 def set_columns(

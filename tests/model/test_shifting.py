@@ -1,5 +1,6 @@
-"""All keys moved at once: the short way and the splice give the same bytes."""
+"""All keys moved or scaled at once: the short way and the splice give the same bytes."""
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -9,11 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from model import edits, placing, rows
-from model.change import Shift, Splice, unshifted
-from model.channel import Channel
+from model.change import Change, Shift, Splice, unshifted
+from model.channel import Channel, Reach
 from model.clip import Clip
 from model.document import Document
 from model.extrapolation import Extrapolation
+from model.gesture import Gesture
 from model.keyframe import TangentRule, make_run
 from model.selection import Selection
 from tests.model.editing import everything
@@ -21,6 +23,10 @@ from tests.model.editing import everything
 RULES = list(TangentRule)
 NUMBERS = st.one_of(
     st.sampled_from([0.0, -0.0, 0.1, -1.0, 5e-324, 1e-308, 1e17, -1e300, 1.7e308]), st.floats(-1e3, 1e3)
+)
+
+FACTORS = st.one_of(
+    st.sampled_from([1.0, 1.0, -1.0, 0.0, -0.0, 1e-6, -1e-7, 3e-320, 1e300, -1e250, 0.5]), st.floats(-3.0, 3.0)
 )
 
 EDGES = np.linspace(-5.0, 80.0, 40)
@@ -58,17 +64,49 @@ def all_bytes(channel: Channel) -> tuple[Any, ...]:
     return rows.numbers[:, slots].tobytes(), channel.run().tobytes(), channel.pre, channel.post
 
 
+def is_what_the_splice_makes(gesture: Gesture, channel: Channel, alone: Channel) -> Reach:
+    """Assert that *channel* looks as *alone*, its like before the preview, does after its splice."""
+    (splice,) = gesture.changes
+    assert isinstance(splice, Splice)
+    reach = alone.splice(alone.run(), splice.after)
+    assert all_bytes(channel) == all_bytes(alone)
+    assert channel._rows.minus_zero >= alone._rows.minus_zero
+    for edges in (EDGES, np.linspace(-100.0, 30.0, 40)):
+        for ours, theirs in zip(channel.envelope(edges), alone.envelope(edges), strict=True):
+            assert ours.tobytes() == theirs.tobytes()
+        assert channel.evaluate(edges).tobytes() == alone.evaluate(edges).tobytes()
+        assert [channel.value(time) for time in edges.tolist()] == alone.evaluate(edges).tolist()
+    return reach
+
+
+type Step = Callable[[Clip, Selection], list[Change]]
+
+
+def moved(d_time: float, d_value: float, reorder: bool) -> Step:
+    return lambda clip, chosen: edits.move(clip, chosen, d_time, d_value, reorder=reorder)
+
+
+def scaled(time: float, value: float, f_time: float, f_value: float) -> Step:
+    return lambda clip, chosen: edits.scale(clip, chosen, time, value, f_time, f_value)
+
+
 @pytest.mark.usefixtures("short_rows")
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=300, deadline=None)
 @given(
     st.integers(0, 10**6),
     st.integers(13, 80),
     st.integers(1, 3),
     st.sampled_from([1.0, 1e-310, 1e305, 8e307]),
-    st.lists(st.tuples(NUMBERS, NUMBERS, st.booleans()), min_size=1, max_size=4),
+    st.lists(
+        st.one_of(
+            st.builds(moved, NUMBERS, NUMBERS, st.booleans()), st.builds(scaled, NUMBERS, NUMBERS, FACTORS, FACTORS)
+        ),
+        min_size=1,
+        max_size=4,
+    ),
 )
 def test_every_step_of_a_drag_of_all_keys_is_what_the_splice_makes(
-    seed: int, n: int, kinds: int, scale: float, steps: list[tuple[float, float, bool]]
+    seed: int, n: int, kinds: int, scale: float, steps: list[Step]
 ) -> None:
     channel, twin = (channel_of(seed, n, kinds, scale) for _ in range(2))
     document, start = Document(Clip([channel])), everything(Clip([channel]))
@@ -77,24 +115,62 @@ def test_every_step_of_a_drag_of_all_keys_is_what_the_splice_makes(
     document.changed.connect(lambda _, t0, t1: told.append((t0, t1)))
     one = Selection.of({channel: chosen.ids(channel)[:: n // 2]})
     gesture = document.begin("Drag")
-    for d_time, d_value, reorder in steps:
+    for step in steps:
         # Marks are written over the keys that a step before has left behind.
         flat = (edits.set_rule(clip, one, TangentRule.FLAT) for clip in [document.clip])
-        gesture.preview(lambda clip, v=d_value, f=flat: [*edits.move(clip, chosen, 0.0, v), *next(f)])
+        gesture.preview(lambda clip, f=flat: [*edits.move(clip, chosen, 0.0, 1.0), *next(f)])
         told.clear()
-        gesture.preview(lambda clip, t=d_time, v=d_value, r=reorder: edits.move(clip, chosen, t, v, reorder=r))
-        (splice,) = gesture.changes
-        alone = channel_of(seed, n, kinds, scale)
-        reach = alone.splice(alone.run(), splice.after)
-        assert all_bytes(channel) == all_bytes(alone)
-        for ours, theirs in zip(channel.envelope(EDGES), alone.envelope(EDGES), strict=True):
-            assert ours.tobytes() == theirs.tobytes()
+        gesture.preview(lambda clip, s=step: s(clip, chosen))
+        reach = is_what_the_splice_makes(gesture, channel, channel_of(seed, n, kinds, scale))
         assert told[0][0] <= reach.t0 <= reach.t1 <= told[0][1]
+    shown = everything(Clip([channel]))
     edit = gesture.commit()
+    assert everything(Clip([channel])) == shown
     if edit is not None:
-        document.apply(edit.inverse())
+        for sides, bytes_ in ((edit.inverse(), start), (edit, shown), (edit.inverse(), start)):
+            document.apply(sides)
+            assert everything(Clip([channel])) == bytes_
     assert everything(Clip([channel])) == start == everything(Clip([twin]))
     assert all_bytes(channel) == all_bytes(twin)
+
+
+@pytest.mark.parametrize("kinds", [1, 3])
+@pytest.mark.parametrize("n", [25_000, 30_000])
+def test_a_drag_of_very_many_keys_ends_where_it_began_if_it_is_cancelled(n: int, kinds: int) -> None:
+    channel, twin = (channel_of(n + kinds, n, kinds, 1.0) for _ in range(2))
+    document, chosen = Document(Clip([channel])), Selection.of_all([channel])
+    opening = all_bytes(channel)
+    gesture = document.begin("Drag")
+    for step in (
+        scaled(2.0, 0.5, 1.5, -3.0),
+        scaled(2.0, 0.5, -0.75, 1.0),
+        moved(0.1, -2.0, True),
+        scaled(-0.0, -0.0, -1.0, 0.0),
+        scaled(0.0, 0.1, 1.0, 0.3),
+    ):
+        gesture.preview(lambda clip, s=step: s(clip, chosen))
+        assert [type(change) for change in gesture._put] == [Shift]
+        is_what_the_splice_makes(gesture, channel, twin.copy())
+    gesture.cancel()
+    assert all_bytes(channel) == opening
+
+
+@pytest.mark.usefixtures("short_rows")
+def test_keys_mirrored_and_mirrored_back_in_one_drag_are_an_edit_of_nothing() -> None:
+    channel = channel_of(7, 60, 3, 1.0)
+    document, chosen = Document(Clip([channel])), Selection.of_all([channel])
+    opening = all_bytes(channel)
+    with document.begin("Drag") as gesture:
+        gesture.preview(lambda clip: edits.scale(clip, chosen, 0.0, 0.0, -1.0, 1.0))
+        assert not gesture.hides_keys
+        assert channel.run()["id"].tolist() == chosen.ids(channel)[np.argsort(times_of(channel, chosen))].tolist()
+        gesture.preview(lambda clip: edits.move(clip, chosen, 0.0, 0.0))
+    assert gesture.edit is None
+    assert all_bytes(channel) == opening
+
+
+def times_of(channel: Channel, chosen: Selection) -> list[float]:
+    return [channel.key(key_id).time for key_id in chosen.ids(channel).tolist()]
 
 
 @pytest.mark.usefixtures("short_rows")

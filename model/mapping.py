@@ -1,0 +1,65 @@
+"""Mapping: what the numbers of many keys become, worked out in columns with the bits that it has in records."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from model.hermite import Floats
+from model.keyframe import Run, TangentRule
+
+
+class Added(NamedTuple):
+    """A number more."""
+
+    amount: float
+
+    def to(self, numbers: Floats, out: Floats | None = None) -> Floats:
+        """What *numbers* become, in *out* if it is given."""
+        # Adding -0.0 leaves every number as it is, 0.0 would turn -0.0 into 0.0.
+        return np.add(numbers, self.amount or -0.0, out=out)
+
+
+class Stretched(NamedTuple):
+    """So many times as far from *center*."""
+
+    center: float
+    factor: float
+
+    def to(self, numbers: Floats, out: Floats | None = None) -> Floats:
+        """What *numbers* become, in *out* if it is given; inf or NaN where a double cannot hold it or a step to it."""
+        found = np.subtract(numbers, self.center, out=out)
+        found *= self.factor
+        found += self.center
+        return found
+
+
+class Mapping(NamedTuple):
+    """What times and values become, and what the slopes of fixed sides are multiplied by."""
+
+    time: Added | Stretched
+    value: Added | Stretched
+    slope: float = 1.0
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the keys come to stand in reverse order."""
+        return isinstance(self.time, Stretched) and self.time.factor < 0.0
+
+    @property
+    def makes_minus_zero(self) -> bool:
+        """Whether a value may become -0.0 that was not."""
+        return isinstance(self.value, Stretched) and str(self.value.center) == "-0.0"
+
+
+def mirrored(run: Run) -> Run:
+    """*run* in reverse order with their sides exchanged; a span that one of them held is held by the other end."""
+    turned = run[::-1].copy()
+    turned["slope_in"], turned["slope_out"] = run["slope_out"][::-1], run["slope_in"][::-1]
+    rules_in, rules_out = run["rule_in"], run["rule_out"]
+    held = rules_out == TangentRule.STEP
+    new_in = np.where(held, TangentRule.FLAT, rules_out)
+    new_out = rules_in.copy()
+    new_out[1:][held[:-1]] = TangentRule.STEP
+    turned["rule_in"], turned["rule_out"] = new_in[::-1], new_out[::-1]
+    turned["broken"] |= (turned["rule_in"] != turned["rule_out"]) & (turned["rule_out"] != TangentRule.STEP)
+    return turned
