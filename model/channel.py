@@ -201,6 +201,13 @@ class Channel(Curve):
             start.remember(question, run)
         return run
 
+    def extent_of(self, ids: NDArray[np.int64]) -> tuple[float, float, float, float] | None:
+        """(first time, last time, lowest value, highest value) of the keys with these ids, each once, as far as there.
+
+        None if none is there.
+        """
+        return picking.extent_of(self._rows, ids)
+
     def keys_between(self, t0: float, t1: float, *, around: int = 0) -> Run:
         """The keys with t0 <= time <= t1, and *around* neighbours on each side."""
         rank0, rank1 = self._rows.rank_at(t0, after=False), self._rows.rank_at(t1)

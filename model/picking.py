@@ -1,10 +1,10 @@
-"""Picking: a few keys of a channel read one by one, and not with those between them."""
+"""Picking: certain keys of a channel looked up by their ids, and not read with those between them."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from model.keyframe import KEY_DTYPE, KeyGoneError, Run
-from model.rows import MARK_FIELDS, NUMBER_FIELDS, Rows, Slots
+from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE, Rows, Slots
 
 # In channels of fewer rows all keys are looked through for those with certain ids.
 MOST_LOOKED_THROUGH = 8
@@ -41,3 +41,23 @@ def keys_at(rows: Rows, slots: Slots) -> Run:
         run[field] = rows.marks[column].take(slots)
     run["id"] = rows.ids.take(slots)
     return run
+
+
+def extent_of(rows: Rows, ids: NDArray[np.int64]) -> tuple[float, float, float, float] | None:
+    """(first time, last time, lowest value, highest value) of the keys with these ids, each once and some maybe gone.
+
+    None if all of them are gone.
+    """
+    if len(ids) and not 0 < ids.min() <= ids.max() < len(rows.row_of):
+        ids = ids[(ids > 0) & (ids < len(rows.row_of))]
+    row_of = rows.row_of.take(ids)
+    if row_of.min(initial=0) < 0:
+        ids = ids[row_of >= 0]
+    if not len(ids):
+        return None
+    if len(ids) == rows.size:
+        # Spare slots repeat keys.
+        times, values = rows.numbers[: VALUE + 1]
+    else:
+        times, values = rows.numbers[: VALUE + 1].take(slots_of(rows, ids), axis=1)
+    return float(times[0]), float(times[-1]), float(values.min()), float(values.max())

@@ -129,6 +129,22 @@ def test_few_keys_among_many_are_read_as_they_are_and_missed_when_gone(n: int) -
                 channel.keys_of(np.append(wanted, stranger))
 
 
+@pytest.mark.parametrize("n", [1, 5, 500, 5_000])
+def test_the_extent_of_keys_is_that_of_those_that_are_there(n: int) -> None:
+    channel = Channel("x", make_run(np.arange(n) * 0.5, np.sin(np.arange(n) * 7.0)))
+    ids = channel.run()["id"]
+    strangers = np.array([0, -3, 10**9])
+    for chosen in (ids, ids[::-1], ids[n // 3 :: 2], ids[-1:]):
+        run = channel.keys_of(chosen)
+        expected = run["time"][0], run["time"][-1], run["value"].min(), run["value"].max()
+        assert channel.extent_of(chosen) == channel.extent_of(np.append(strangers, chosen)) == expected
+    assert channel.extent_of(strangers) is channel.extent_of(ids[:0]) is None
+    if n > 1:
+        channel.splice(channel.run_of(ids[:1]), make_run())
+        assert channel.extent_of(ids) == channel.extent_of(ids[1:])
+        assert channel.extent_of(ids[:1]) is None
+
+
 @pytest.mark.parametrize("n", [1, 2, 3, 2000])
 def test_keys_around_one_are_its_neighbours_and_it(n: int) -> None:
     channel = Channel("c", make_run(np.arange(n), 0.0))

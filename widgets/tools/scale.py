@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from math import copysign, hypot
 from typing import ClassVar, NamedTuple
 
-import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 
 from model import edits
@@ -284,13 +283,9 @@ CURSORS = {
 
 def bounds_of(selection: Selection) -> Bounds | None:
     """The extent of the selected keys; None if there are none."""
-    boxes = []
-    for channel in selection.channels:
-        run = channel.run()
-        run = run[np.isin(run["id"], selection.ids(channel))]
-        if len(run):
-            boxes.append((run["time"][0], run["time"][-1], run["value"].min(), run["value"].max()))
-    if not boxes:
+    extents = [channel.extent_of(selection.ids(channel)) for channel in selection.channels]
+    found = [extent for extent in extents if extent is not None]
+    if not found:
         return None
-    t0, t1, v0, v1 = zip(*boxes, strict=True)
-    return Bounds(float(min(t0)), float(max(t1)), float(min(v0)), float(max(v1)))
+    t0, t1, v0, v1 = zip(*found, strict=True)
+    return Bounds(min(t0), max(t1), min(v0), max(v1))
