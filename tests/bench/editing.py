@@ -67,6 +67,30 @@ def _steps(gesture: Gesture, selection: Selection, reach: float) -> Callable[[],
     return step
 
 
+def _stretches(gesture: Gesture, selection: Selection, wide: float, high: float) -> Callable[[], None]:
+    """Steps of a scale that goes on, each from the start, to and fro by up to *wide* in time and *high* in value."""
+    amounts = iter(np.linspace(0.0, 3.0, 100_000).tolist())
+
+    def step() -> None:
+        factor = float(np.sin(1000.0 * next(amounts)))
+        gesture.preview(lambda clip: edits.scale(clip, selection, 3.0, 0.5, 1.0 + wide * factor, 1.0 + high * factor))
+
+    return step
+
+
+def stretches() -> list[Line]:
+    """One step of a drag that scales or retimes all keys, without the painting."""
+    channel = a_channel(MANY)
+    every = Selection.of_all([channel])
+    lines = []
+    for work, wide, high in (("scale", 0.2, 0.3), ("retime", 0.2, 0.0)):
+        with Document(Clip([channel])).begin("Bench") as gesture:
+            taken = timed({"ours": _stretches(gesture, every, wide, high)}, rounds=15)
+            gesture.preview(lambda clip: [])
+        lines.append(Line(f"a {work} step of all 1,000,000 keys, model", taken["ours"].median, most=70e-3))
+    return lines
+
+
 def drags() -> list[Line]:
     """One step of a drag, without the painting."""
     channels = [a_channel(1_000, seed, f"c{seed}") for seed in range(20)]
@@ -120,4 +144,4 @@ def memory() -> list[str]:
 
 def run() -> list[Line]:
     """All figures of editing."""
-    return [*local_edits(), *drags()]
+    return [*local_edits(), *drags(), *stretches()]

@@ -108,12 +108,17 @@ def wander(at: QPointF) -> Iterator[QPointF]:
 
 def drag_times(scene: Shown, n: int = STEPS) -> Times:
     """Steps of a drag of the selected key, by mouse events on the viewport."""
-    view, channel = scene.view, scene.channel
-    key, viewport = channel.key(scene.key_id), scene.view.viewport()
+    view, key = scene.view, scene.channel.key(scene.key_id)
     at = QPointF(float(view.x_from_time(key.time)), float(view.y_from_value(key.value)))
+    return stroke_times(view, at, at, n)
+
+
+def stroke_times(view: CurveView, at: QPointF, around: QPointF, n: int) -> Times:
+    """Steps of a drag of what is at a place, which goes round another one."""
+    viewport = view.viewport()
     send(viewport, QEvent.Type.MouseMove, at, NONE, NONE)
     send(viewport, QEvent.Type.MouseButtonPress, at, LEFT, LEFT)
-    places = wander(at)
+    places = wander(around)
     for _ in range(5):
         send(viewport, QEvent.Type.MouseMove, next(places), NONE, LEFT)
         QApplication.processEvents()
@@ -225,6 +230,31 @@ def drag_of_all(stack: QStackedWidget, clip: Clip) -> Line:
     return Line("a drag step of all 1,000,000 keys", times.median, note="with its paint", most=60e-3)
 
 
+def stretches_of_all(stack: QStackedWidget, clip: Clip) -> list[Line]:
+    """Every key of a clip of one channel scaled by the corner of its box, retimed by its bracket; one handle turned."""
+    lines = []
+    for tool in ("scale", "retime"):
+        scene = shown(stack, clip, None)
+        view, session = scene.view, scene.view.document.session
+        session.selection = Selection.of_all(clip.channels)
+        session.tool = tool
+        settle(view)
+        frame = view.canvas.overlay.frame
+        assert frame is not None
+        at = max(frame.handles, key=lambda spot: (spot.x(), -spot.y()))
+        times = stroke_times(view, at, at - QPointF(100.0, 0.0), 12)
+        lines.append(Line(f"a {tool} step of all 1,000,000 keys", times.median, note="with its paint", most=100e-3))
+    scene = shown(stack, clip, 10)
+    view = scene.view
+    view.document.session.selection = Selection.of_all(clip.channels)
+    settle(view)
+    handle = next(end for each in view.drawn_handles() if each.id == scene.key_id for end in each[2:] if end)
+    times = stroke_times(view, QPointF(*handle), QPointF(*handle), STEPS)
+    work = "a drag step of one handle, all 1,000,000 keys selected"
+    lines.append(Line(work, times.median, note="with its paint", most=100e-3))
+    return lines
+
+
 def view_steps(stack: QStackedWidget, name: str, clip: Clip) -> list[Line]:
     """Pan, zoom and the full picture after a zoom, everything in view."""
     scene = shown(stack, clip, None)
@@ -287,6 +317,7 @@ def run() -> list[Line]:
     lines.append(drag_in_the_editor(clips["200 x 1,000 keys"]))
     lines.append(drag_of_some(stack, clips["200 x 1,000 keys"]))
     lines.append(drag_of_all(stack, clips["1 x 1,000,000 keys"]))
+    lines += stretches_of_all(stack, clips["1 x 1,000,000 keys"])
     for name, clip in clips.items():
         lines += [*view_steps(stack, name, clip), *hit_tests(stack, name, clip)]
     stack.close()
