@@ -339,7 +339,7 @@ class Channel(Curve):
 
     def release(self) -> None:
         """Leave the keys as they are and forget those of the moment of `hold`."""
-        self._rows.start = None
+        self._rows.start = self._rows.likeness = None
 
     def set_extrapolation(self, pre: Extrapolation, post: Extrapolation) -> None:
         """Choose how the curve goes on before the first and after the last key."""

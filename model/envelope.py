@@ -9,10 +9,11 @@ import numpy as np
 
 from model import evaluation, hermite
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation, periods
-from model.extremes import Extremes, Range, turns_of
+from model.extremes import Extremes, turns_of
 from model.hermite import LARGEST, Floats
 from model.keyframe import TangentRule
 from model.rows import D_TIME, RULE_OUT, VALUE, A, Rows, Slots
+from model.suspects import Range
 
 
 class Points(NamedTuple):

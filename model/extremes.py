@@ -4,6 +4,7 @@ Inside a span the curve turns at most twice. A span whose control points lie wit
 adds nothing to that range, and so its turns need not be worked out.
 """
 
+from collections.abc import Sequence
 from itertools import batched
 from math import inf, nan
 
@@ -12,7 +13,9 @@ from numpy.typing import NDArray
 
 from model import evaluation, hermite
 from model.hermite import Floats
+from model.likeness import Likeness
 from model.rows import VALUE, A, B, C, Rows, Slots
+from model.suspects import Known, Range, key_ranges, safe, suspects
 
 BLOCK = 64
 # What is left of a block at the end of a column is read in smaller ones.
@@ -23,12 +26,10 @@ AT_A_TIME = 64
 DIRECT = 20_000
 # Up to so many spans all are worked out at once; of more, the columns of a picture begin and end among few.
 EACH = 1 << 18
+# If more than one row in so many has changed, all are looked at as what a drag has made of others.
+MOST_STALE = 3
 # Of up to so many rows all spans are worked out at once too: that takes no longer than to look for those that count.
 FEW = 4
-# What rounding may do to a turn: as a share of the largest value, of that and the range together, and at least.
-ROUNDING, NEAR, LEAST = 1e-12, 2e-6, 1e-300
-
-type Range = tuple[Floats, Floats]
 
 
 class Extremes:
@@ -50,6 +51,7 @@ class Extremes:
         self.block_low, self.block_high = np.empty((2, len(rows.ids) // self.block))
         self.known = np.zeros(len(self.block_low), np.bool_)  # the blocks whose spans are worked out too
         self._room = np.empty((3, min(rows.rows, AT_A_TIME) * rows.width))
+        self._made_of: Known | None = None
         self.begin(rows)
 
     def begin(self, rows: Rows) -> None:
@@ -62,14 +64,18 @@ class Extremes:
         """Work out anew the rows from slot0 to slot1 that have changed."""
         row0, row1 = slot0 // rows.width, slot1 // rows.width + 1
         stale = sorted(rows.dirty.intersection(range(row0, row1)) if len(rows.dirty) > 1 else rows.dirty)
-        parts = [np.array(few) for few in batched(stale, AT_A_TIME)]
         if self.each or len(stale) <= FEW:
-            for some in parts:
+            for some in _parts(stale):
                 self._measure(rows, some)
-        elif parts:
-            self.known.reshape(-1, rows.width // self.block)[stale] = False
+        else:
             with np.errstate(all="ignore"):
-                self._widen(rows, np.concatenate([self._measure_keys(rows, some) for some in parts]))
+                slots = self._measure_made(rows, rows.likeness) if MOST_STALE * len(stale) > rows.rows else None
+                if slots is None:
+                    slots = np.concatenate([self._measure_keys(rows, some) for some in _parts(stale)])
+                else:
+                    stale = sorted(rows.dirty)
+                self.known.reshape(-1, rows.width // self.block)[stale] = False
+                self._widen(rows, slots)
         rows.dirty.difference_update(stale)
 
     def _measure(self, rows: Rows, some: Slots) -> None:
@@ -92,25 +98,23 @@ class Extremes:
 
     def _measure_keys(self, rows: Rows, some: Slots) -> Slots:
         """Set the ranges of the blocks of some rows to those of their keys; the slots of spans that may leave them."""
-        neighbours = some[-1] - some[0] == len(some) - 1
-        few = slice(some[0], some[-1] + 1) if neighbours else some
-        b, c, d = (rows.number_grid[column][few].reshape(-1) for column in (B, C, VALUE))
-        begins, blocks = np.arange(0, len(d), self.block), (-1, rows.width // self.block)
-        low, high = np.minimum.reduceat(d, begins), np.maximum.reduceat(d, begins)
-        self.block_low.reshape(blocks)[few] = low.reshape(len(some), -1)
-        self.block_high.reshape(blocks)[few] = high.reshape(len(some), -1)
-        least, most = _safe(low, high)
-        p1, p2, spare = self._room[:, : len(d)]
-        _control_points(b, c, d, p1, p2)
-        np.maximum(p1, p2, out=spare)
-        beyond = ~(spare.reshape(-1, self.block) <= most[:, None])
-        np.minimum(p1, p2, out=spare)
-        beyond |= ~(spare.reshape(-1, self.block) >= least[:, None])
-        # The spans of spare slots are those of the last key.
-        beyond.reshape(len(some), -1)[:, int((rows.first[some + 1] - rows.first[some]).max()) :] = False
-        (slots,) = beyond.reshape(-1).nonzero()
-        found: Slots = some.take(slots // rows.width) * rows.width + slots % rows.width
-        return found
+        low, high = key_ranges(rows, rows.number_grid, some, self.block)
+        blocks = (-1, rows.width // self.block)
+        self.block_low.reshape(blocks)[some] = low.reshape(len(some), -1)
+        self.block_high.reshape(blocks)[some] = high.reshape(len(some), -1)
+        return suspects(rows, rows.number_grid, some, safe(low, high), self._room)
+
+    def _measure_made(self, rows: Rows, likeness: Likeness | None) -> Slots | None:
+        """The same for all rows, from what is known of those they are made of; None if that does not do."""
+        if likeness is None:
+            return None
+        if self._made_of is None or self._made_of.extent is not likeness.extent:
+            self._made_of = Known.of(rows, likeness, self.block, _parts(range(rows.rows)), self._room)
+        made = self._made_of.made(likeness)
+        if made is None:
+            return None
+        self.block_low[:], self.block_high[:], slots = made
+        return slots
 
     def _widen(self, rows: Rows, slots: Slots) -> None:
         """Have the turns of these spans in the ranges of their blocks."""
@@ -187,26 +191,9 @@ class Extremes:
         self.known[wanted] = True
 
 
-def _safe(low: Floats, high: Floats) -> Range:
-    """Bounds within *low* to *high*: with its inner control points between them a span does not turn outside these.
-
-    Since a curve crosses no level more often than the line through its control points does, it turns downwards no
-    higher than the higher of the inner ones, and upwards no higher than the key that it starts from; and so below.
-    But a turn as it is worked out may lie some 1e-14 of the largest value off. No turn is that near to a key at the
-    end of the range if the curve leaves the key steeply enough.
-    """
-    largest = np.maximum(np.abs(low), np.abs(high))
-    slack = np.sqrt((high - low) * NEAR) * np.sqrt(largest * NEAR) + largest * ROUNDING + LEAST
-    return low + slack, high - slack
-
-
-def _control_points(b: Floats, c: Floats, d: Floats, p1: Floats, p2: Floats) -> None:
-    """Fill *p1* and *p2* with the two control points between the keys of each span."""
-    np.multiply(c, 1.0 / 3.0, out=p1)
-    p1 += d
-    np.add(b, c, out=p2)
-    p2 *= 1.0 / 3.0
-    p2 += p1
+def _parts(rows: Sequence[int]) -> list[Slots]:
+    """*rows*, so many at a time."""
+    return [np.array(few) for few in batched(rows, AT_A_TIME)]
 
 
 def _may_turn(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:

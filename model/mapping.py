@@ -7,11 +7,23 @@ import numpy as np
 from model.hermite import Floats
 from model.keyframe import Run, TangentRule
 
+# Of a rounded number this share is off at most, or so much if it is next to 0.
+UNIT, SMALLEST = 2.0**-53, 5e-324
+
 
 class Added(NamedTuple):
     """A number more."""
 
     amount: float
+
+    @property
+    def factor(self) -> float:
+        """What differences are multiplied by."""
+        return 1.0
+
+    def rounding(self, largest: float) -> float:
+        """How far at most rounding moves what becomes of a number no larger than *largest*."""
+        return UNIT * (largest + abs(self.amount))
 
     def to(self, numbers: Floats, out: Floats | None = None) -> Floats:
         """What *numbers* become, in *out* if it is given."""
@@ -25,6 +37,10 @@ class Stretched(NamedTuple):
     center: float
     factor: float
 
+    def rounding(self, largest: float) -> float:
+        """How far at most rounding moves what becomes of a number no larger than *largest*."""
+        return 4.0 * UNIT * (abs(self.factor) * (largest + abs(self.center)) + abs(self.center)) + SMALLEST
+
     def to(self, numbers: Floats, out: Floats | None = None) -> Floats:
         """What *numbers* become, in *out* if it is given; inf or NaN where a double cannot hold it or a step to it."""
         found = np.subtract(numbers, self.center, out=out)
@@ -34,11 +50,15 @@ class Stretched(NamedTuple):
 
 
 class Mapping(NamedTuple):
-    """What times and values become, and what the slopes of fixed sides are multiplied by."""
+    """What times and values become; slopes of fixed sides go with them."""
 
     time: Added | Stretched
     value: Added | Stretched
-    slope: float = 1.0
+
+    @property
+    def slope(self) -> float:
+        """What the slopes of fixed sides are multiplied by."""
+        return self.value.factor / self.time.factor if self.value.factor != self.time.factor else 1.0
 
     @property
     def mirrored(self) -> bool:

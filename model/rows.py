@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from model.blocks import Block, blocks_of
 from model.hermite import Floats
 from model.keyframe import KEY_DTYPE, KeyGoneError, Run
+from model.likeness import Likeness
 from model.rewinding import Grids, Start
 
 type Slots = NDArray[np.int64]
@@ -78,6 +79,7 @@ class Rows:
         self.first = first  # rank of each row's first key, and at the end the number of keys
         self.forget_places()
         self.starts = starts  # time of each row's first key
+        self.likeness: Likeness | None = None  # how these rows come from others, while that is so
         self.dirty = set(range(self.rows))  # rows whose coefficients were written since somebody cleared this set
 
     # --- places
@@ -244,6 +246,7 @@ class Rows:
 
     def _keep(self, row0: int, row1: int, place0: int, place1: int, *, keys_move: bool, marks_too: bool = True) -> None:
         """These places of the rows row0 to row1 are about to be written: numbers, marks, or keys as well."""
+        self.likeness = None
         if self.start is not None:
             self.start.keep(self, row0, row1, place0, place1, keys_move=keys_move, marks_too=marks_too)
 

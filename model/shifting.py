@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from model.blocks import Block
 from model.hermite import Floats
 from model.keyframe import Run, TangentRule
+from model.likeness import Extent, Likeness
 from model.mapping import Mapping, mirrored
 from model.rewinding import Start
 from model.rows import (
@@ -35,9 +36,7 @@ from model.tangents import Marks, slope_between, slopes_of
 
 def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
     """Change *keys*, all those of the start of a gesture; False, and nothing has changed, if a splice must do it."""
-    shifting = start.shifting
-    if shifting is None or shifting.keys is not keys:
-        shifting = start.shifting = Shifting(rows, keys)
+    shifting = start.shifting = start.shifting or Shifting(rows, keys)
     twins = start.twin_grids(rows)
     if not shifting.fill(rows, twins[0], mapping):
         start.give_back(twins)
@@ -48,7 +47,9 @@ def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
         twins[1][:], twins[2][:] = shifting.mirrored_keys(rows)
         rows.row_of[twins[2]] = np.arange(rows.rows, dtype=np.int32)[:, None]
     rows.minus_zero |= mapping.makes_minus_zero
+    origin = rows.number_grid
     rows.take_over(twins, rows.first.copy(), twins[0][TIME, :, 0].tolist())
+    rows.likeness = Likeness.of(origin, shifting.extent, mapping)
     return True
 
 
@@ -90,6 +91,7 @@ class Shifting:
         self._mirrored_keys: tuple[Marks, NDArray[np.int32]] | None = None
         most = max(block.rows * block.held for block in rows.blocks(0, rows.size))
         self._room = np.empty((6, most + 3))
+        self.extent = Extent.of(keys)
 
     def _side(self, rows: Rows, turned: bool) -> _Side:
         """The keys in the order that they were in, or the other way round."""

@@ -158,7 +158,6 @@ def scale(
     mapping = Mapping(
         Stretched(center_time, f_time) if f_time != 1.0 else Added(0.0),
         Stretched(center_value, f_value) if f_value != 1.0 else Added(0.0),
-        f_value / f_time if f_value != f_time else 1.0,
     )
     changes: list[Change] = []
     for channel, keys in selected_keys(selection):
