@@ -17,6 +17,11 @@ class Added(NamedTuple):
     amount: float
 
     @property
+    def still(self) -> bool:
+        """Whether all numbers stay as they are."""
+        return self.amount == 0.0
+
+    @property
     def factor(self) -> float:
         """What differences are multiplied by."""
         return 1.0
@@ -36,6 +41,11 @@ class Stretched(NamedTuple):
 
     center: float
     factor: float
+
+    @property
+    def still(self) -> bool:
+        """Whether all numbers are known to stay as they are."""
+        return False
 
     def rounding(self, largest: float) -> float:
         """How far at most rounding moves what becomes of a number no larger than *largest*."""

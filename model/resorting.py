@@ -14,7 +14,7 @@ from model import hermite
 from model.hermite import Floats
 from model.keyframe import Run, TangentRule
 from model.mapping import Added
-from model.rewinding import Start
+from model.rewinding import NO_COLUMNS, Start
 from model.rows import D_TIME, RULE_IN, RULE_OUT, SLOPE_IN, SLOPE_OUT, TIME, VALUE, A, C, Rows, Slots
 from model.tangents import slopes_of
 
@@ -76,6 +76,7 @@ class Resorting:
     def store(self, rows: Rows, start: Start, order: Slots | None) -> None:
         """Have *rows* hold what was worked out last."""
         numbers, marks, ids = twins = start.twin_grids(rows)
+        start.spare_columns = NO_COLUMNS
         self._table.take(self._rank_of_slot, axis=1, out=numbers.reshape(D_TIME + 1, -1), mode="clip")
         start.set_aside(rows, keys_move=order is not None)
         if order is not None:

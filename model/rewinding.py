@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 type Grids = tuple[Floats, NDArray[np.uint8], NDArray[np.int32]]
 
 
+NO_COLUMNS: frozenset[int] = frozenset()
 # Each preview asks for the selected keys and for those around them.
 MOST_RUNS = 3
 
@@ -58,6 +59,8 @@ class Start:
         self._whole: Whole | None = None
         self._spare: Grids | None = None
         self._spare_keys = False  # whether marks and ids of the spare grids are those of the start
+        # Which columns of the spare numbers are those of the start, by those who fill them.
+        self.spare_columns = NO_COLUMNS
         self._keys_moved = False
         # What is worked out once of those rows, for keys that are moved again and again.
         self.shifting: Shifting | None = None
@@ -90,6 +93,7 @@ class Start:
         """Make sure of places of the rows row0 to row1 (later), which will hold other numbers, marks or even keys."""
         self._keys_moved |= keys_move
         self._spare_keys &= not marks_too
+        self.spare_columns = NO_COLUMNS
         if self._whole is not None:
             return
         at = row0
@@ -120,6 +124,7 @@ class Start:
     def spare_grids(self, rows: "Rows") -> tuple[Floats, NDArray[np.uint8]]:
         """Grids of the shape of those of *rows* to be filled: those that the last preview left behind."""
         spare, self._spare = self._spare, None
+        self.spare_columns = NO_COLUMNS
         if spare is not None and spare[0].shape == rows.number_grid.shape:
             return spare[0], spare[1]
         return np.empty_like(rows.number_grid), np.empty_like(rows.mark_grid)
@@ -129,6 +134,7 @@ class Start:
         twins, self._spare = self._spare, None
         if twins is None or twins[0].shape != rows.number_grid.shape:
             twins = np.empty_like(rows.number_grid), rows.mark_grid.copy(), rows.id_grid.copy()
+            self.spare_columns = NO_COLUMNS
         elif not self._spare_keys:
             twins[1][:], twins[2][:] = rows.mark_grid, rows.id_grid
         self._spare_keys = True

@@ -15,7 +15,7 @@ from model.hermite import Floats
 from model.keyframe import Run, TangentRule
 from model.likeness import Extent, Likeness
 from model.mapping import Mapping, mirrored
-from model.rewinding import Start
+from model.rewinding import NO_COLUMNS, Start
 from model.rows import (
     D_TIME,
     MARK_FIELDS,
@@ -37,10 +37,12 @@ from model.tangents import Marks, slope_between, slopes_of
 def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
     """Change *keys*, all those of the start of a gesture; False, and nothing has changed, if a splice must do it."""
     shifting = start.shifting = start.shifting or Shifting(rows, keys)
-    twins = start.twin_grids(rows)
-    if not shifting.fill(rows, twins[0], mapping):
+    twins, same = start.twin_grids(rows), _same_columns(mapping)
+    kept, start.spare_columns = start.spare_columns & same, NO_COLUMNS
+    if not shifting.fill(rows, twins[0], mapping, kept):
         start.give_back(twins)
         return False
+    start.spare_columns = same
     start.set_aside(rows, keys_move=mapping.mirrored)
     if mapping.mirrored:
         start.write_keys()
@@ -51,6 +53,14 @@ def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
     rows.take_over(twins, rows.first.copy(), twins[0][TIME, :, 0].tolist())
     rows.likeness = Likeness.of(origin, shifting.extent, mapping)
     return True
+
+
+def _same_columns(mapping: Mapping) -> frozenset[int]:
+    """The columns that stay as they are."""
+    if mapping.mirrored:
+        return NO_COLUMNS
+    times = (TIME, D_TIME) if mapping.time.still else ()
+    return frozenset((*times, VALUE) if mapping.value.still else times)
 
 
 class _Piece(NamedTuple):
@@ -99,14 +109,17 @@ class Shifting:
             self._sides[turned] = _Side(rows, mirrored(self.keys) if turned else self.keys)
         return self._sides[turned]
 
-    def fill(self, rows: Rows, numbers: Floats, mapping: Mapping) -> bool:
-        """Fill *numbers*, a grid like that of *rows*, with the keys as they become; False if a splice must do it."""
+    def fill(self, rows: Rows, numbers: Floats, mapping: Mapping, kept: frozenset[int] = NO_COLUMNS) -> bool:
+        """Fill *numbers*, a grid like that of *rows*, with the keys as they become; False if a splice must do it.
+
+        The columns *kept* are filled already.
+        """
         side = self._side(rows, mapping.mirrored)
         with np.errstate(all="ignore"):
             first, last = mapping.time.to(side.numbers[TIME, [0, -1]])
             if not isfinite(last - first):
                 return False
-            return all(_fill_piece(numbers, piece, side, mapping, self._room) for piece in side.pieces)
+            return all(_fill_piece(numbers, piece, side, mapping, self._room, kept) for piece in side.pieces)
 
     def mirrored_keys(self, rows: Rows) -> tuple[Marks, NDArray[np.int32]]:
         """Grids like those of *rows* of the marks and ids of the keys in reverse order."""
@@ -123,12 +136,14 @@ class Shifting:
         return self._mirrored_keys
 
 
-def _fill_piece(numbers: Floats, piece: _Piece, side: _Side, mapping: Mapping, room: Floats) -> bool:
+def _fill_piece(
+    numbers: Floats, piece: _Piece, side: _Side, mapping: Mapping, room: Floats, kept: frozenset[int]
+) -> bool:
     (rank, row, count, _, _, held), last, smooth = piece
     n, shape = count * held, (count, held)
     grid = numbers[:, row : row + count, :held]
     # The key before, those of the piece, and two keys after for the last span and the slope at its end.
-    t, v = keys = room[: VALUE + 1, : n + 3]
+    t, v = room[: VALUE + 1, : n + 3]
     here = slice(rank + 1, rank + n + 4)
     mapping.time.to(side.numbers[TIME, here], out=t)
     mapping.value.to(side.numbers[VALUE, here], out=v)
@@ -150,9 +165,11 @@ def _fill_piece(numbers: Floats, piece: _Piece, side: _Side, mapping: Mapping, r
         if found is None:
             return False
         slope_in, slope_out = found
-    grid[: VALUE + 1] = keys[:, 1 : n + 1].reshape(2, *shape)
-    grid[SLOPE_IN], grid[SLOPE_OUT] = slope_in[:n].reshape(shape), slope_out[:n].reshape(shape)
-    grid[D_TIME] = d_time[:n].reshape(shape)
+    columns = {TIME: t[1:], VALUE: v[1:], SLOPE_IN: slope_in, SLOPE_OUT: slope_out, D_TIME: d_time}
+    for column, part in columns.items():
+        if column not in kept:
+            lines, part_lines = numbers[column, row : row + count], part[:n].reshape(shape)
+            lines[:, :held], lines[:, held:] = part_lines, part_lines[:, -1:]
     _fill_coefficients(grid, d_time, v, slope_in, slope_out, d_value, spare, shape)
     if not smooth:
         steps = side.rules[RULE_OUT, rank + 2 : rank + n + 2].reshape(shape) == TangentRule.STEP
@@ -160,8 +177,8 @@ def _fill_piece(numbers: Floats, piece: _Piece, side: _Side, mapping: Mapping, r
             grid[A : C + 1, steps] = 0.0
     if last == n:
         grid[A : C + 1, -1, -1] = 0.0
-    if held < numbers.shape[2]:
-        numbers[:, row : row + count, held:] = grid[:, :, -1:]
+    for lines in numbers[A : C + 1, row : row + count]:
+        lines[:, held:] = lines[:, held - 1 : held]
     return True
 
 
