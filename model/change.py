@@ -68,6 +68,7 @@ class Shift(NamedTuple):
     mapping: Mapping
     slack: float  # keys that come no more than so many seconds near to each other are a matter for splices
     splices: Callable[[], list[Splice]]  # the same as splices, worked out while the channel is as it was
+    within: Run | None = None  # now that it has been put in: the neighbouring keys among which its own were
 
 
 type Change = Splice | Shift | Setting | Membership
@@ -152,14 +153,22 @@ def shifted(shift: Shift, touched: Touched) -> Change | None:
         return None
     touched.widen(shift.channel, done.t0, done.t1)
     touched.keys_came_or_went |= not done.same_order
-    return shift if done.sides is None else Splice(shift.channel, *done.sides)
+    channel, before = shift.channel, done.before
+    if done.after is not None:
+        return Splice(channel, before, done.after)
+    return shift if len(before) == len(shift.before) else shift._replace(within=before)
 
 
 def unshifted(changes: Iterable[Change]) -> list[Splice | Setting | Membership]:
     """*changes* with splices for what has been shifted as a whole, or is to be while its channel is as it was."""
     found: list[Splice | Setting | Membership] = []
     for change in changes:
-        found += change.splices() if isinstance(change, Shift) else [change]
+        if not isinstance(change, Shift):
+            found.append(change)
+        elif change.within is None:
+            found += change.splices()
+        else:
+            found.append(Splice(change.channel, change.within, change.channel.stored(change.within)))
     return found
 
 

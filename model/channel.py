@@ -18,6 +18,8 @@ from model.rewinding import Question, Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
 from model.shifting import shift
 
+# Where a smaller share of very many keys changes, splices are quicker.
+MOST = 0.6
 # Where fewer than one key in so many is asked for, keys are read one by one and not with those between them.
 SPARSE = 4
 
@@ -43,12 +45,16 @@ class Spliced(NamedTuple):
 
 
 class Shifted(NamedTuple):
-    """The same (t0, t1); whether the keys are in the order they were; which gave way to which, unless it was all."""
+    """The same (t0, t1); whether the keys are in the order they were; neighbours as they were, and as they are given.
+
+    Where they are very many, they are all keys, and what is given is left out.
+    """
 
     t0: float
     t1: float
     same_order: bool
-    sides: tuple[Run, Run] | None
+    before: Run
+    after: Run | None
 
 
 class Channel(Curve):
@@ -295,17 +301,19 @@ class Channel(Curve):
     def shift(self, before: Run, mapping: Mapping, slack: float) -> Shifted | None:
         """Change the keys *before* alike, by a way shorter than splices and with the same outcome.
 
-        None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for all of very
-        many keys, or many of not very many that are only moved and come more than *slack* seconds from other keys.
+        None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for most of very
+        many keys, or many of not very many that are only moved, and they come more than *slack* seconds from others.
         """
         rows = self._rows
         start = rows.start
         if start is None or start.left:
             return None
-        if rows.many and len(before) == rows.size and not splicing.rank_of_run(rows, before, before):
-            rank0, rank1, same_order, sides = 0, rows.size, not mapping.mirrored, None
+        after = None
+        if rows.many and len(before) >= (MOST if rows.size > MOST_RESORTED else 1.0) * rows.size:
+            rank0, rank1, same_order, chosen = 0, rows.size, not mapping.mirrored, before
+            before = self._all_keys(chosen)
             old = splicing.outer(rows, 0, rows.size)
-            if not shift(rows, start, before, mapping):
+            if not shift(rows, start, before, chosen, mapping, slack):
                 return None
         elif rows.size <= MOST_RESORTED and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
             if start.resorting is None or start.resorting.keys is not before:
@@ -318,13 +326,20 @@ class Channel(Curve):
             old = splicing.outer(rows, rank0, rank1)
             resorting.store(rows, start, order)
             before, same_order = resorting.run[rank0:rank1], order is None
-            sides = before, resorting.given(resorted)
+            after = resorting.given(resorted)
         else:
             return None
         self._changed()
         old_times = float(before["time"][0]), float(before["time"][-1])
         t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
-        return Shifted(t0, t1, same_order, sides)
+        return Shifted(t0, t1, same_order, before, after)
+
+    def _all_keys(self, chosen: Run) -> Run:
+        """All keys, which are the *chosen* ones if those are as many; ValueError if they are not there."""
+        if len(chosen) < len(self):
+            return self._again((0, len(self)), self._run, 0, len(self))
+        splicing.rank_of_run(self._rows, chosen, chosen)
+        return chosen
 
     def hold(self) -> None:
         """Keep from now on what splices overwrite, so that `rewind` can bring the keys of this moment back."""

@@ -285,6 +285,8 @@ class Gesture:
         if not isinstance(change, Splice | Shift):
             return change
         channel, before = change.channel, change.before
+        if isinstance(change, Shift) and change.within is not None:
+            before = change.within
         if before.base is not None:  # a part of a larger run, which the history need not hold
             before = before.copy()
         try:  # what is shifted as a whole has the same keys on both sides

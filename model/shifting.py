@@ -34,12 +34,18 @@ from model.rows import (
 from model.tangents import Marks, slope_between, slopes_of
 
 
-def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
-    """Change *keys*, all those of the start of a gesture; False, and nothing has changed, if a splice must do it."""
+def shift(rows: Rows, start: Start, keys: Run, chosen: Run, mapping: Mapping, slack: float) -> bool:
+    """Change the *chosen* ones of *keys*, which are all those of the start of a gesture.
+
+    False, and nothing has changed, if splices must do it, as where two keys come within *slack* seconds.
+    """
     shifting = start.shifting = start.shifting or Shifting(rows, keys)
+    others = shifting.others(chosen)
+    if others is not None and mapping.mirrored:
+        return False
     twins, same = start.twin_grids(rows), _same_columns(mapping)
     kept, start.spare_columns = start.spare_columns & same, NO_COLUMNS
-    if not shifting.fill(rows, twins[0], mapping, kept):
+    if not shifting.fill(rows, _Task(twins[0], mapping, slack, others, kept)):
         start.give_back(twins)
         return False
     start.spare_columns = same
@@ -51,7 +57,7 @@ def shift(rows: Rows, start: Start, keys: Run, mapping: Mapping) -> bool:
     rows.minus_zero |= mapping.makes_minus_zero
     origin = rows.number_grid
     rows.take_over(twins, rows.first.copy(), twins[0][TIME, :, 0].tolist())
-    rows.likeness = Likeness.of(origin, shifting.extent, mapping)
+    rows.likeness = Likeness.of(origin, shifting.extent, mapping) if others is None else None
     return True
 
 
@@ -61,6 +67,16 @@ def _same_columns(mapping: Mapping) -> frozenset[int]:
         return NO_COLUMNS
     times = (TIME, D_TIME) if mapping.time.still else ()
     return frozenset((*times, VALUE) if mapping.value.still else times)
+
+
+class _Task(NamedTuple):
+    """What is to be done with all pieces."""
+
+    numbers: Floats  # the grid to fill
+    mapping: Mapping
+    slack: float  # the seconds that two keys must be apart, and more
+    others: NDArray[np.bool_] | None  # the keys that stay as they are, in columns as those of a side; None: none
+    kept: frozenset[int]  # the columns that are filled already
 
 
 class _Piece(NamedTuple):
@@ -102,6 +118,21 @@ class Shifting:
         most = max(block.rows * block.held for block in rows.blocks(0, rows.size))
         self._room = np.empty((6, most + 3))
         self.extent = Extent.of(keys)
+        self._others: tuple[Run, NDArray[np.bool_]] | None = None
+
+    def others(self, chosen: Run) -> NDArray[np.bool_] | None:
+        """The keys that are not among those *chosen*, in columns as those of a side; None if there are none."""
+        if len(chosen) == len(self.keys):
+            return None
+        if self._others is None or self._others[0] is not chosen:
+            ids, changed = self.keys["id"], chosen["id"]
+            flags = np.ones(int(max(ids.max(), changed.max())) + 1, np.bool_)
+            flags[changed] = False
+            others = np.pad(flags[ids], 2, constant_values=True)
+            if np.count_nonzero(others) != len(ids) - len(changed) + 4:
+                raise ValueError("the keys to change are not in the channel")
+            self._others = chosen, others
+        return self._others[1]
 
     def _side(self, rows: Rows, turned: bool) -> _Side:
         """The keys in the order that they were in, or the other way round."""
@@ -109,17 +140,15 @@ class Shifting:
             self._sides[turned] = _Side(rows, mirrored(self.keys) if turned else self.keys)
         return self._sides[turned]
 
-    def fill(self, rows: Rows, numbers: Floats, mapping: Mapping, kept: frozenset[int] = NO_COLUMNS) -> bool:
-        """Fill *numbers*, a grid like that of *rows*, with the keys as they become; False if a splice must do it.
-
-        The columns *kept* are filled already.
-        """
-        side = self._side(rows, mapping.mirrored)
+    def fill(self, rows: Rows, task: _Task) -> bool:
+        """Fill a grid like that of *rows* with the keys as they become; False if splices must do it."""
+        side = self._side(rows, task.mapping.mirrored)
         with np.errstate(all="ignore"):
-            first, last = mapping.time.to(side.numbers[TIME, [0, -1]])
-            if not isfinite(last - first):
+            ends = side.numbers[TIME, [0, -1]]
+            times = np.append(ends, task.mapping.time.to(ends))
+            if not isfinite(times.max() - times.min()):
                 return False
-            return all(_fill_piece(numbers, piece, side, mapping, self._room, kept) for piece in side.pieces)
+            return all(_fill_piece(task, piece, side, self._room) for piece in side.pieces)
 
     def mirrored_keys(self, rows: Rows) -> tuple[Marks, NDArray[np.int32]]:
         """Grids like those of *rows* of the marks and ids of the keys in reverse order."""
@@ -136,9 +165,8 @@ class Shifting:
         return self._mirrored_keys
 
 
-def _fill_piece(
-    numbers: Floats, piece: _Piece, side: _Side, mapping: Mapping, room: Floats, kept: frozenset[int]
-) -> bool:
+def _fill_piece(task: _Task, piece: _Piece, side: _Side, room: Floats) -> bool:
+    numbers, mapping, slack, others, kept = task
     (rank, row, count, _, _, held), last, smooth = piece
     n, shape = count * held, (count, held)
     grid = numbers[:, row : row + count, :held]
@@ -147,6 +175,8 @@ def _fill_piece(
     here = slice(rank + 1, rank + n + 4)
     mapping.time.to(side.numbers[TIME, here], out=t)
     mapping.value.to(side.numbers[VALUE, here], out=v)
+    if others is not None:
+        np.copyto(room[: VALUE + 1, : n + 3], side.numbers[: VALUE + 1, here], where=others[here])
     if rank == 0:
         t[0] = -inf
     t[last + 1 :] = inf
@@ -154,14 +184,14 @@ def _fill_piece(
     np.subtract(t[2 : n + 2], t[1 : n + 1], out=d_time[:n])
     if last == n:
         d_time[n - 1] = 1.0
-    if not isfinite(v.sum()) or not d_time[:n].min() > 0.0:
+    if not isfinite(v.sum()) or not d_time[:n].min() > slack:
         return False
     if smooth:
         if not _smooth(t, v, rank, last, d_value, spare, slopes):
             return False
         slope_in = slope_out = slopes
     else:
-        found = _by_rule(side, t, v, rank, last, mapping.slope)
+        found = _by_rule(side, t, v, rank, last, mapping.slope, others)
         if found is None:
             return False
         slope_in, slope_out = found
@@ -195,13 +225,17 @@ def _smooth(t: Floats, v: Floats, rank: int, last: int, d_value: Floats, d_time:
     return isfinite(slopes.sum())
 
 
-def _by_rule(side: _Side, t: Floats, v: Floats, rank: int, last: int, factor: float) -> tuple[Floats, Floats] | None:
+def _by_rule(
+    side: _Side, t: Floats, v: Floats, rank: int, last: int, factor: float, others: NDArray[np.bool_] | None
+) -> tuple[Floats, Floats] | None:
     """(slopes in, slopes out) of keys by whatever rules, and of the key after them; None if one is unusually large."""
     begin, end = int(rank == 0), min(last + 1, len(t))
     here = slice(rank + 1 + begin, rank + 1 + end)
     given, rules = side.numbers[SLOPE_IN : SLOPE_OUT + 1, here], side.rules[:, here]
     if factor != 1.0:
         fixed = rules == TangentRule.FIXED
+        if others is not None:
+            fixed &= ~others[here]
         if fixed.any():
             given = np.where(fixed, given * factor, given)
             if not isfinite(given.sum()):

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from model.change import Change, Shift, Splice
-from model.channel import Channel
+from model.channel import MOST, Channel
 from model.clip import Clip
 from model.hermite import LARGEST, Floats
 from model.keyframe import KEY_DTYPE, Run, TangentRule
@@ -162,10 +162,15 @@ def scale(
     changes: list[Change] = []
     for channel, keys in selected_keys(selection):
         splices = partial(_scaled_splices, channel, keys, mapping)
-        if FEW <= len(keys) == len(channel):
-            changes.append(Shift(channel, keys, mapping, 0.0, splices))
-        else:
+        if len(keys) < FEW or len(keys) < MOST * len(channel):
             changes += splices()
+            continue
+        slack = 0.0
+        if f_time != 1.0 and len(keys) < len(channel):
+            ends = keys["time"][[0, -1]]
+            with np.errstate(over="ignore"):
+                slack = slack_at(*ends.tolist(), *_scaled(ends, Stretched(center_time, f_time)).tolist())
+        changes.append(Shift(channel, keys, mapping, slack, splices))
     return changes
 
 

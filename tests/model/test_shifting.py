@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import model.channel
 from model import edits, placing, rows
-from model.change import Change, Shift, Splice, unshifted
+from model.change import Change, Setting, Shift, Splice, unshifted
 from model.channel import Channel, Reach
 from model.clip import Clip
 from model.document import Document
@@ -136,6 +137,92 @@ def test_every_step_of_a_drag_of_all_keys_is_what_the_splice_makes(
             assert everything(Clip([channel])) == bytes_
     assert everything(Clip([channel])) == start == everything(Clip([twin]))
     assert all_bytes(channel) == all_bytes(twin)
+
+
+def little(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.one_of(st.just(low / 2.0 + high / 2.0), st.floats(low, high))
+
+
+@pytest.mark.usefixtures("short_rows")
+@settings(max_examples=300, deadline=None)
+@given(
+    st.integers(0, 10**6),
+    st.integers(20, 80),
+    st.integers(1, 3),
+    st.sampled_from([1.0, 1.0, 1e-310, 8e307]),
+    st.lists(
+        st.one_of(
+            st.builds(moved, st.just(0.0), NUMBERS, st.just(True)),
+            st.builds(moved, little(-0.02, 0.02), NUMBERS, st.just(True)),
+            st.builds(scaled, little(0.0, 5.0), NUMBERS, little(0.999, 1.001), FACTORS),
+            st.builds(scaled, NUMBERS, NUMBERS, FACTORS, FACTORS),
+        ),
+        min_size=1,
+        max_size=5,
+    ),
+    st.booleans(),
+)
+def test_every_step_of_a_drag_of_most_keys_is_what_splices_make(
+    seed: int, n: int, kinds: int, scale: float, steps: list[Step], keep: bool
+) -> None:
+    channel, twin = channels = [channel_of(seed, n, kinds, scale) for _ in range(2)]
+    start, ids = all_bytes(channel), channel.run()["id"]
+    picked = np.random.default_rng(seed).choice(ids, max(13, len(ids) - 1 - seed % (len(ids) // 2)), replace=False)
+    chosen = [Selection.of({each: picked}) for each in channels]
+    documents = [Document(Clip([each])) for each in channels]
+    gestures = [document.begin("Drag") for document in documents]
+    kept, model.channel.MOST_RESORTED = model.channel.MOST_RESORTED, 0
+    try:
+        for step in steps:
+            gestures[0].preview(lambda clip, s=step: s(clip, chosen[0]))
+            gestures[1].preview(lambda clip, s=step: unshifted(s(clip, chosen[1])))
+            assert all_bytes(channel) == all_bytes(twin)
+            assert gestures[0].hides_keys == gestures[1].hides_keys
+            assert gestures[0].keys_fewer == gestures[1].keys_fewer
+    finally:
+        model.channel.MOST_RESORTED = kept
+    if keep:
+        made = [gesture.commit() for gesture in gestures]
+        assert (made[0] is None) == (made[1] is None)
+        shown = all_bytes(channel)
+        assert shown == all_bytes(twin)
+        if made[0] is not None:
+            for edit, state in ((made[0].inverse(), start), (made[0], shown), (made[0].inverse(), start)):
+                documents[0].apply(edit)
+                assert all_bytes(channel) == state
+    else:
+        gestures[0].cancel()
+    assert all_bytes(channel) == start
+
+
+@pytest.mark.usefixtures("short_rows")
+def test_most_keys_take_the_short_way_unless_they_pass_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(model.channel, "MOST_RESORTED", 0)
+    channel = Channel("x", make_run(np.arange(60.0), np.sin(np.arange(60.0))))
+    document, chosen = Document(Clip([channel])), Selection.of({channel: np.delete(np.arange(1, 61), [7, 30])})
+    opening = all_bytes(channel)
+    with document.begin("Drag") as gesture:
+        for step, short in (
+            (moved(0.0, 2.0, True), True),
+            (moved(0.5, 2.0, True), True),
+            (moved(1.5, 2.0, True), False),
+            (scaled(30.0, 1.0, 1.01, 2.0), True),
+            (scaled(30.0, 1.0, -1.0, 2.0), False),
+        ):
+            gesture.preview(lambda clip, s=step: s(clip, chosen))
+            assert all(isinstance(change, Shift if short else Splice) for change in gesture._put)
+        gesture.preview(lambda clip: edits.move(clip, chosen, 0.25, 2.0))
+        (splice,) = gesture.changes
+        assert isinstance(splice, Splice)
+        assert splice.after.tobytes() == channel.run().tobytes()
+        shown = all_bytes(channel)
+        wrong = Setting(document.clip, "title", "", "\n")
+        with pytest.raises(ValueError, match="title"):
+            gesture.preview(lambda clip: [*edits.move(clip, chosen, 0.0, 1.0), wrong])
+        assert all_bytes(channel) == shown
+    assert gesture.edit is not None
+    document.apply(gesture.edit.inverse())
+    assert all_bytes(channel) == opening
 
 
 @pytest.mark.parametrize("kinds", [1, 3])
