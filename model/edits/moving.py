@@ -133,9 +133,10 @@ def _stopped(keys: Run, limit: tuple[Floats, Floats] | None, d_time: float) -> f
     if limit is None:
         return d_time
     earliest, latest = limit
-    if d_time > 0.0:
-        return min(d_time, float((latest - keys["time"]).min()))
-    return max(d_time, float((earliest - keys["time"]).max()))
+    with np.errstate(over="ignore"):  # a neighbour too far away for a double is in nobody's way
+        if d_time > 0.0:
+            return min(d_time, float((latest - keys["time"]).min()))
+        return max(d_time, float((earliest - keys["time"]).max()))
 
 
 def _inside(times: Floats, limit: tuple[Floats, Floats], before: Floats) -> Floats:

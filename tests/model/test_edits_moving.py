@@ -117,6 +117,14 @@ def test_stopping_keeps_keys_apart_at_every_scale(gap: float, base: float) -> No
         assert times(channel)[::2] == times_before[::2]
 
 
+@pytest.mark.parametrize("d_time", [-0.5, 0.5])
+def test_a_neighbour_too_far_away_for_a_double_is_not_in_the_way(d_time: float) -> None:
+    channel = Channel("x", make_run([-1.7e308, 1.7e308], 0.0))
+    chosen = select(channel, 1 if d_time > 0.0 else 2)
+    document_of(channel).do("Move", lambda clip: edits.move(clip, chosen, 1e300 * d_time, 0.0, reorder=False))
+    assert sorted(map(abs, times(channel))) == [1.7e308 - 5e299, 1.7e308]
+
+
 def test_a_key_far_from_where_it_goes_is_moved_without_touching_what_lies_between() -> None:
     channel = Channel("x", make_run(np.arange(10_000.0), np.sin(np.arange(10_000.0))))
     clip = Clip([channel])
