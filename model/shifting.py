@@ -184,7 +184,8 @@ def _fill_piece(task: _Task, piece: _Piece, side: _Side, room: Floats) -> bool:
     np.subtract(t[2 : n + 2], t[1 : n + 1], out=d_time[:n])
     if last == n:
         d_time[n - 1] = 1.0
-    if not isfinite(v.sum()) or not d_time[:n].min() > slack:
+    # The keys after count too: slopes come from them before their own piece is looked at.
+    if not isfinite(v.sum()) or not d_time[:n].min() > slack or (last > n and not t[n + 2] - t[n + 1] > slack):
         return False
     if smooth:
         if not _smooth(t, v, rank, last, d_value, spare, slopes):

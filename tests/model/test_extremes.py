@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from model import edits, extremes, rows, suspects
@@ -137,6 +137,7 @@ def how_far_off(channel: Channel, likeness: Likeness) -> Floats:
 @pytest.mark.usefixtures("short_rows")
 @settings(max_examples=400, deadline=None)
 @given(st.integers(0, 10**6), st.integers(0, len(VALUES) - 1))
+@example(157, 2)
 def test_no_suspect_of_what_a_drag_makes_is_missing(seed: int, kind: int) -> None:
     channel, chance = channel_of(seed, kind, 120), np.random.default_rng(seed)
     document, chosen = Document(Clip([channel])), Selection.of_all([channel])

@@ -281,6 +281,20 @@ def test_only_what_is_unusual_is_left_to_a_splice(
 
 
 @pytest.mark.usefixtures("short_rows")
+@pytest.mark.parametrize("meet", range(1, 49))
+def test_where_rounding_brings_two_keys_together_a_splice_parts_them(meet: int) -> None:
+    times = np.arange(50.0)
+    times[meet] = times[meet - 1] + 1e-9
+    columns = np.resize([TangentRule.SMOOTH, TangentRule.AUTO], 50)
+    channel = Channel("x", make_run(times, np.arange(50) % 7, 0.0, 0.0, columns, columns))
+    document, chosen = Document(Clip([channel])), Selection.of_all([channel])
+    with document.begin("Drag") as gesture:
+        gesture.preview(lambda clip: edits.move(clip, chosen, 1e9, 0.0))
+        assert [isinstance(change, Splice) for change in gesture._put] == [True]
+        channel.check()
+
+
+@pytest.mark.usefixtures("short_rows")
 def test_slopes_too_steep_for_a_double_are_those_of_the_rule() -> None:
     channel = Channel("x", make_run(np.arange(50) * 1e-309, np.resize([1.0, 1.0, -1.0, -1.0], 50)))
     document, chosen = Document(Clip([channel])), Selection.of_all([channel])
