@@ -5,7 +5,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QTimer, Signal
+from PySide6.QtCore import QEvent, QSize, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QLineEdit, QMainWindow, QMenu
 
@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from widgets.value_field import ValueField
 
 FIRST_SIZE = (1400, 860)
+# About what the window system draws around a window.
+FRAME = QSize(16, 48)
 
 
 class MainWindow(QMainWindow):
@@ -78,7 +80,7 @@ class MainWindow(QMainWindow):
             | QMainWindow.DockOption.AllowTabbedDocks
         )
         if not self.restoreGeometry(self.settings.geometry):
-            self.resize(*FIRST_SIZE)
+            self.resize(QSize(*FIRST_SIZE).boundedTo(self.screen().availableGeometry().size() - FRAME))
         if not frame_only:
             self.assemble(document)
 

@@ -4,12 +4,13 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Final, NamedTuple
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QPalette, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from model.document import Document
 from widgets.form import PanelButton
+from widgets.guard import guarded
 from widgets.number_targets import PlayheadTarget, SettingTarget
 from widgets.playback import Playback
 from widgets.scrub_label import ScrubLabel
@@ -77,15 +78,44 @@ class Transport(QWidget):
         self.buttons: dict[str, QToolButton] = {}
         self.fields: dict[str, ValueField] = {}
         self._refresh = Soon(self, self._show_numbers, document=document)
-        self._layout = QHBoxLayout(self)
-        self._layout.setContentsMargins(6, 3, 6, 3)
-        self._layout.setSpacing(2)
+        # Beside each other, or one above the other where there is little room.
+        self._lines = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        self._lines.setContentsMargins(6, 3, 6, 3)
+        self._lines.setSpacing(2)
+        self._parts = first, second = QHBoxLayout(), QHBoxLayout()
+        for line, stretch in ((first, 0), (second, 1)):
+            line.setSpacing(2)
+            self._lines.addLayout(line, stretch)
+        self._layout = first
         self._add_buttons()
-        self._add_fields()
+        self._add_line()
+        for row in PLAYHEAD:
+            self._add_field(row)
+        self._layout.addStretch(1)
+        self._layout = second
+        self._layout.addStretch(1)
+        for row in RANGE:
+            self._add_field(row)
+        self._needed = self.sizeHint().width()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self._listen()
         self._show_options("playing")
         self._show_options("loop")
+
+    # --- Qt
+
+    @guarded(QSize(0, 0))
+    def minimumSizeHint(self) -> QSize:
+        margins = self._lines.contentsMargins()
+        widest = max(part.minimumSize().width() for part in self._parts)
+        return QSize(widest + margins.left() + margins.right(), super().minimumSizeHint().height())
+
+    @guarded()
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        beside = event.size().width() >= self._needed
+        directions = QBoxLayout.Direction
+        self._lines.setDirection(directions.LeftToRight if beside else directions.TopToBottom)
 
     # --- for the actions of the window
 
@@ -145,14 +175,6 @@ class Transport(QWidget):
         self.buttons[name] = button
         self._layout.addWidget(button)
         return button
-
-    def _add_fields(self) -> None:
-        self._add_line()
-        for row in PLAYHEAD:
-            self._add_field(row)
-        self._layout.addStretch(1)
-        for row in RANGE:
-            self._add_field(row)
 
     def _add_field(self, row: Number) -> None:
         field = ValueField(row.target(self._document), self._theme, row.tip, row.tip)

@@ -73,3 +73,16 @@ def test_reset_layout_brings_back_panels_and_toolbar(
     qtbot.wait(30)
     assert widths(window) == pytest.approx(before, abs=4)
     assert all(bar.isVisible() for bar in window.findChildren(QToolBar))
+
+
+def test_the_first_window_is_no_larger_than_its_screen(
+    qtbot: QtBot, settings: Settings, started: list[MainWindow]
+) -> None:
+    window = MainWindow(settings=settings)
+    started.append(window)
+    window.show()
+    qtbot.waitExposed(window)
+    room = window.screen().availableGeometry()
+    assert window.width() < room.width()
+    assert window.height() < room.height()
+    assert window.minimumSizeHint().width() <= 700

@@ -342,6 +342,19 @@ def test_shortcuts_are_named_in_the_tooltips(transport):
     assert set(transport.buttons) == {row.name for row in BUTTONS} | {"loop"}
 
 
+def test_where_there_is_little_room_the_range_stands_below_the_playhead(transport, qtbot):
+    time, start = transport.fields["time"], transport.fields["start"]
+    transport.setMinimumSize(1, 1)  # as in a window, where its own hint counts and not that of its layout
+    transport.resize(1200, transport.height())
+    qtbot.waitUntil(lambda: time.y() == start.y())
+    assert transport.minimumSizeHint().width() < 700
+    transport.resize(700, transport.height())
+    qtbot.waitUntil(lambda: start.y() > time.y())
+    assert all(field.geometry().right() < 700 for field in transport.fields.values())
+    transport.resize(1200, transport.height())
+    qtbot.waitUntil(lambda: time.y() == start.y())
+
+
 def test_every_part_has_a_name_for_a_screen_reader_and_is_reached_by_tab(transport):
     parts = [part for kind in (QAbstractButton, QLineEdit) for part in transport.findChildren(kind)]
     assert len(parts) == 14
