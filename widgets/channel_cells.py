@@ -45,6 +45,7 @@ class ChannelCells(QStyledItemDelegate):
         self._rows = rows
         self._pens: dict[Channel, QPen] = {}
         self._alike: Counter[int] = Counter()  # how many channels have a colour
+        self._dashes: list[tuple[float, ...]] = []  # of all channels, if they are few
         self._font: QFont | None = None
         self._number_font = QFont()
         self._metrics = QFontMetrics(self._number_font)
@@ -157,8 +158,8 @@ class ChannelCells(QStyledItemDelegate):
             # As the curves: a second code where the first is not enough, and never a fabric of dashes.
             if not self._alike and len(channels) <= MOST_DASHED:
                 self._alike = Counter(theme.channel_color(other, place).rgba() for place, other in enumerate(channels))
-            dash = theme.channel_dash(channel, rank)
-            if dash and self._alike[color.rgba()] > 1:
+                self._dashes = theme.channel_dashes(channels)
+            if self._alike[color.rgba()] > 1 and (dash := self._dashes[rank]):
                 pen.setDashPattern([max(length * 0.4, 0.8) for length in dash])
             self._pens[channel] = pen
         return self._pens[channel]

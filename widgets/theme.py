@@ -12,6 +12,8 @@ from widgets.colors import AXIS_COLORS, COLORS, CURVE_COLORS, DASHES, DISABLED_R
 from widgets.icons import TintedIcon, picture
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from model.channel import Channel
 
 SCHEMES: Final = {
@@ -127,6 +129,17 @@ class Theme(QObject):
     def channel_dash(self, channel: "Channel", index: int) -> tuple[float, ...]:
         """The second code beside the colour: x, y, z of one joint share a pattern, the next joint has another."""
         return self.dash(index) if axis_of(channel.leaf)[0] is None else DASHES[index // 3 % len(DASHES)]
+
+    def channel_dashes(self, channels: "Sequence[Channel]") -> list[tuple[float, ...]]:
+        """The patterns of all channels of a clip: of one colour no two have the same, as far as patterns go."""
+        taken: set[tuple[int, tuple[float, ...]]] = set()
+        dashes = []
+        for index, channel in enumerate(channels):
+            color, own = self.channel_color(channel, index).rgba(), self.channel_dash(channel, index)
+            dash = next((dash for dash in (own, *DASHES) if (color, dash) not in taken), own)
+            taken.add((color, dash))
+            dashes.append(dash)
+        return dashes
 
     def pen(self, color: QColor, width: float = 1.0, dash: tuple[float, ...] = ()) -> QPen:
         """A cosmetic pen: as wide on the screen at every zoom."""

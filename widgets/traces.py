@@ -68,6 +68,7 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
     some_active = any(channel is active for _, channel in shown)
     colors = [theme.channel_color(channel, index) for index, channel in shown]
     alike = Counter(color.rgba() for color in colors) if dashed else Counter()
+    dashes = theme.channel_dashes(document.clip.channels) if any(count > 1 for count in alike.values()) else []
     mixed: dict[tuple[int, float], tuple[QColor, QColor]] = {}
     traces = []
     for (index, channel), own in zip(shown, colors, strict=True):
@@ -80,7 +81,7 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
         if channel.locked and (dashed or channel is active):
             dash = LOCKED_DASH
         elif alike[own.rgba()] > 1:  # a second code beside the colour, only where two of the shown curves have the same
-            dash = tuple(DASH_UNIT * length for length in theme.channel_dash(channel, index))
+            dash = tuple(DASH_UNIT * length for length in dashes[index])
         width, soft_too = (2.0, True) if channel is active else (1.0, soft)
         traces.append(Trace(channel, index, color, faint, dash, width, soft_too, channel is active))
     return tuple(sorted(traces, key=lambda trace: trace.active))

@@ -33,3 +33,14 @@ def test_of_few_curves_those_of_one_colour_are_told_apart_by_dashes() -> None:
 def test_of_many_curves_all_are_whole_the_active_one_too_unless_it_is_locked() -> None:
     assert all(trace.dash == () for trace in traces_with(MOST_DASHED + 1))
     assert [trace.active for trace in traces_with(MOST_DASHED + 1, lock=True) if trace.dash] == [True]
+
+
+@pytest.mark.usefixtures("qapp")
+def test_curves_given_the_same_colour_have_different_dashes() -> None:
+    channels = [Channel(f"c{i}.v", make_run([0.0, 1.0], [0.0, 1.0]), color="#ff0000") for i in range(4)]
+    traces = traces_of(Document(Clip(channels)), Theme.current())
+    assert len({trace.dash for trace in traces}) == 4
+    hidden = Document(Clip(channels))
+    hidden.session.hidden = {channels[0]}
+    before = {trace.channel: trace.dash for trace in traces}
+    assert all(trace.dash == before[trace.channel] for trace in traces_of(hidden, Theme.current()))
