@@ -146,8 +146,12 @@ class ChannelView(QTreeView):
             for channel, rect in self._places or ()
             if region.intersects(rect)
         ]
+        palette = self.palette()
+        # As Qt has it for whole rows.
+        group = QPalette.ColorGroup.Active if self.hasFocus() else QPalette.ColorGroup.Inactive
+        palette.setCurrentColorGroup(group)
         with QPainter(self.viewport()) as painter:
-            self.cells.paint_values(painter, self.palette(), self.font(), values)
+            self.cells.paint_values(painter, palette, self.font(), values)
 
     def chosen(self) -> list[Channel]:
         """The channels of the chosen rows, groups opened up, in the clip's order."""

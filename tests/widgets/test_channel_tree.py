@@ -3,8 +3,8 @@
 import time
 
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QContextMenuEvent
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QContextMenuEvent, QPalette
 from PySide6.QtTest import QAbstractItemModelTester, QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
@@ -14,7 +14,7 @@ from model.document import Membership
 from model.keyframe import make_run
 from tests.widgets.tree_hand import center, channel, click, group_center, names, six_channels, tree_of
 from widgets.channel_cells import ChannelCells
-from widgets.channel_rows import ChannelRows
+from widgets.channel_rows import ChannelRows, Column
 from widgets.channel_tree import ChannelTree
 from widgets.channel_view import ChannelView
 from widgets.guard import unguarded
@@ -225,3 +225,19 @@ def test_thousands_of_channels_are_listed_and_filtered_at_once(tree, document):
 def test_every_override_is_guarded():
     for cls in (ChannelTree, ChannelView, ChannelCells, ChannelRows):
         assert unguarded(cls) == []
+
+
+@pytest.mark.parametrize("with_focus", [True, False])
+def test_a_value_that_changes_keeps_the_ground_of_its_row(tree, document, qtbot, with_focus):
+    click(tree, center(tree, "root.ty"))
+    (tree.view if with_focus else tree.filter).setFocus()
+    qtbot.wait(50)
+    document.session.playhead = 0.7
+    qtbot.wait(50)  # only the value has been painted anew
+    index = tree.view.rows.index_of(channel(tree, "root.ty"))
+    screen = tree.screen().grabWindow(tree.winId()).toImage()
+    corners = [tree.view.visualRect(index.siblingAtColumn(column)).topLeft() for column in (Column.NAME, Column.VALUE)]
+    spots = [tree.view.viewport().mapTo(tree, corner + QPoint(1, 1)) for corner in corners]
+    name, value = (screen.pixelColor(spot).name() for spot in spots)
+    group = QPalette.ColorGroup.Active if with_focus else QPalette.ColorGroup.Inactive
+    assert name == value == tree.view.palette().color(group, QPalette.ColorRole.Highlight).name()
