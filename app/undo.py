@@ -2,8 +2,9 @@
 
 from typing import NamedTuple
 
-from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtGui import QUndoCommand, QUndoStack
+from PySide6.QtCore import QEvent, QModelIndex, QObject, QPersistentModelIndex, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QHelpEvent, QPalette, QUndoCommand, QUndoStack
+from PySide6.QtWidgets import QAbstractItemView, QStyledItemDelegate, QStyleOptionViewItem, QToolTip, QUndoView
 
 from model.document import Document, Edit
 from model.progress import CancelledError
@@ -152,3 +153,51 @@ class UndoStack(QUndoStack):
         self._history += 1
         self.clear()
         self.resetClean()
+
+
+class UndoSteps(QUndoView):
+    """The list of steps: those that are taken back are dim, long ones are cut and told in full by the mouse."""
+
+    def __init__(self, stack: UndoStack) -> None:
+        super().__init__(stack)
+        self.setEmptyLabel("As opened")
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.setItemDelegate(_Step(self))
+        stack.indexChanged.connect(self._repaint)
+
+    def _repaint(self, _index: int) -> None:
+        self.viewport().update()
+
+
+class _Step(QStyledItemDelegate):
+    """One step; the first row is the state before all of them."""
+
+    def __init__(self, steps: UndoSteps) -> None:
+        super().__init__(steps)
+        self._steps = steps
+
+    @guarded()
+    def initStyleOption(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> None:
+        super().initStyleOption(option, index)
+        stack = self._steps.stack()
+        if stack is not None and index.row() > stack.index():
+            dim = option.palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
+            option.palette.setColor(QPalette.ColorRole.Text, dim)
+
+    @guarded(False)
+    def helpEvent(
+        self,
+        event: QHelpEvent,
+        view: QAbstractItemView,
+        option: QStyleOptionViewItem,
+        index: QModelIndex | QPersistentModelIndex,
+    ) -> bool:
+        if event.type() != QEvent.Type.ToolTip or not index.isValid():
+            return super().helpEvent(event, view, option, index)
+        QToolTip.showText(event.globalPos(), str(index.data()), view)
+        return True
+
+    @guarded(QSize(1, 20))
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
+        return QSize(1, super().sizeHint(option, index).height())  # as wide as the list, whatever it says

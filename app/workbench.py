@@ -4,7 +4,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QComboBox, QDockWidget, QLineEdit, QToolBar, QUndoView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QDockWidget, QLineEdit, QToolBar, QVBoxLayout, QWidget
 
 from app.clip_file import Opened
 from app.context_menu import ContextMenu
@@ -21,7 +21,7 @@ from app.questions import Questions
 from app.settings import LAYOUT_VERSION
 from app.shortcut_guard import ShortcutGuard
 from app.status_row import StatusRow
-from app.undo import UndoStack
+from app.undo import UndoStack, UndoSteps
 from app.watcher import Watcher
 from model.clip import Clip
 from model.document import Document
@@ -103,6 +103,7 @@ def _hand_keyboard_back(window: "MainWindow") -> None:
             combo.activated.connect(window.focus_graph)
         for line in panel.findChildren(QLineEdit):
             line.returnPressed.connect(window.focus_graph)
+    window.tree.left.connect(window.focus_graph)
 
 
 def _make_parts(window: "MainWindow") -> None:
@@ -125,8 +126,7 @@ def _make_parts(window: "MainWindow") -> None:
     column.addWidget(window.crash_bar)
     column.addWidget(window.view, 1)
     window.setCentralWidget(middle)
-    history = QUndoView(window.undo_stack)
-    history.setEmptyLabel("As opened")
+    history = UndoSteps(window.undo_stack)
     left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
     window.docks = {
         "channels": _dock(window, "channels", "Channels", window.tree, left),

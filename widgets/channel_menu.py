@@ -38,7 +38,7 @@ def channel_menu(tree: "ChannelTree", channels: Sequence[Channel]) -> QMenu:
     add("Show Only These", "solo", partial(show_only, document, channels))
     solo = all(channel in session.solo for channel in channels)
     add("End Solo" if solo else "Solo", "solo", partial(set_solo, session, channels, not solo))
-    add("Show All", "eye", partial(reveal_all, session))
+    add("Reveal All", "eye", partial(reveal_all, session))
     menu.addSeparator()
     locked = all(channel.locked for channel in channels)
     add(
@@ -60,7 +60,7 @@ def _color_menu(tree: "ChannelTree", channels: Sequence[Channel], parent: QMenu)
         action.setChecked(all(channel.color == color for channel in channels))
     menu.addSeparator()
     menu.addAction("Other…", partial(_ask_color, tree, channels))
-    menu.addAction("Automatic", partial(set_color, document, channels, None))
+    menu.addAction("Color by Theme", partial(set_color, document, channels, None))
     return menu
 
 

@@ -26,6 +26,7 @@ class ChannelTree(QWidget):
 
     frame_requested = Signal(object)
     status = Signal(str)
+    left = Signal()  # from the filter, to the graph
 
     def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -51,7 +52,8 @@ class ChannelTree(QWidget):
         field.setPlaceholderText("Filter channels")
         field.setAccessibleName("Filter channels")
         field.setToolTip(
-            "Show the channels whose full names hold all these words.\nEsc clears, Down goes on to the channels."
+            "Show the channels whose full names hold all these words.\n"
+            "Esc clears, and again goes to the graph; Down goes on to the channels."
         )
         field.setClearButtonEnabled(True)
         field.addAction(self.theme.icon("search"), QLineEdit.ActionPosition.LeadingPosition)
@@ -209,13 +211,16 @@ class ChannelTree(QWidget):
     @guarded(False)
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if watched is self.filter and isinstance(event, QKeyEvent):
-            esc = event.key() == Qt.Key.Key_Escape and bool(self.filter.text())
+            esc = event.key() == Qt.Key.Key_Escape
             down = event.key() in (Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
             if (esc or down) and event.type() == QEvent.Type.ShortcutOverride:
                 event.accept()
                 return True
             if esc and event.type() == QEvent.Type.KeyPress:
-                self.filter.clear()
+                if self.filter.text():
+                    self.filter.clear()
+                else:
+                    self.left.emit()
                 return True
             if down and event.type() == QEvent.Type.KeyPress:
                 self._enter_rows()

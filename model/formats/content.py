@@ -113,7 +113,7 @@ def _differences(wanted: Content, held: Content) -> Iterator[Loss]:
 
 
 # Fields of a channel that say nothing of its motion, and what people call them.
-_WORDS: Final = {"name": "name", "unit": "unit", "color": "colour", "locked": "lock"}
+_WORDS: Final = {"name": "name", "unit": "unit", "color": "color", "locked": "lock"}
 
 
 def _key_differences(runs: list[tuple[str, Run, Run]]) -> Iterator[Loss]:

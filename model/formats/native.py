@@ -99,7 +99,7 @@ def _read_channel(scanner: Scanner) -> ChannelContent:
         if token.text == b"unit" and unit is None:
             unit = scanner.text("the unit")
         elif token.text == b"color" and color is None:
-            color = _checked_color(scanner.text("the colour"), token.start)
+            color = _checked_color(scanner.text("the color"), token.start)
         elif token.text == b"locked" and not locked:
             locked = True
         elif token.text == b"extrapolate" and modes is None:
@@ -127,7 +127,7 @@ def _read_keys(scanner: Scanner) -> Run:
 
 def _checked_color(color: str, start: int = 0) -> str:
     if not _COLOR.match(color):
-        raise TextError(start, f"the colour {shown(color)} is not of the kind '#12ab9f'")
+        raise TextError(start, f"the color {shown(color)} is not of the kind '#12ab9f'")
     return color
 
 

@@ -241,3 +241,13 @@ def test_a_value_that_changes_keeps_the_ground_of_its_row(tree, document, qtbot,
     name, value = (screen.pixelColor(spot).name() for spot in spots)
     group = QPalette.ColorGroup.Active if with_focus else QPalette.ColorGroup.Inactive
     assert name == value == tree.view.palette().color(group, QPalette.ColorRole.Highlight).name()
+
+
+def test_esc_clears_the_filter_and_then_leaves_it(tree, qtbot):
+    tree.focus_filter()
+    QTest.keyClicks(tree.filter, "head")
+    with qtbot.assertNotEmitted(tree.left):
+        QTest.keyClick(tree.filter, Key.Key_Escape)
+    assert tree.filter.text() == ""
+    with qtbot.waitSignal(tree.left):
+        QTest.keyClick(tree.filter, Key.Key_Escape)

@@ -27,7 +27,7 @@ LOST = {
     "nothing": (clip_with(), []),
     "a name": (Clip([Channel("hips")]), ["the name of hips is lost"]),
     "a unit": (clip_with(unit="m"), ["the unit of channel 0 is lost"]),
-    "a colour": (clip_with(color="#ff0000"), ["the colour of channel 0 is lost"]),
+    "a color": (clip_with(color="#ff0000"), ["the color of channel 0 is lost"]),
     "a lock": (clip_with(locked=True), ["the lock of channel 0 is lost"]),
     "a title": (Clip(title="Walk"), ["the title 'Walk' is lost"]),
     "a frame rate": (Clip(frame_rate=24), ["the frame rate becomes 30 instead of 24"]),
