@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QPoint, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPalette, QPen
-from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
+from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeView
 
 from model.channel import Channel
 from model.document import Document
@@ -76,6 +76,8 @@ class ChannelCells(QStyledItemDelegate):
             if channel is not None:
                 self._begin_values(painter, option.font)
                 self._paint_value(painter, option.rect, self._rows.value_text(channel))
+            else:  # a group has no value, and so its name goes on here
+                self._paint_name(painter, option, index.sibling(index.row(), Column.NAME))
         else:
             self._paint_toggle(painter, option, index, column)
         # On an icon always, for Space acts on it; on a name only for those who go by keyboard.
@@ -116,6 +118,10 @@ class ChannelCells(QStyledItemDelegate):
     def _paint_name(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
         channel = self._rows.channel_of(index)
         rect = option.rect.adjusted(2, 0, -2, 0)
+        if channel is None and isinstance(option.widget, QTreeView):
+            painter.setClipRect(option.rect)
+            rect.setLeft(option.widget.visualRect(index).left() + 2)
+            rect.setRight(option.widget.visualRect(index.sibling(index.row(), Column.VALUE)).right() - 2)
         seen = self._rows.seen(self._rows.channels_of(index))
         if channel is not None:
             middle = rect.center().y()

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
 from model.channel import Channel
 from model.clip import Clip
-from model.document import Membership
+from model.document import Document, Membership
 from model.keyframe import make_run
 from tests.widgets.tree_hand import center, channel, click, group_center, names, six_channels, tree_of
 from widgets.channel_cells import ChannelCells
@@ -251,3 +251,19 @@ def test_esc_clears_the_filter_and_then_leaves_it(tree, qtbot):
     assert tree.filter.text() == ""
     with qtbot.waitSignal(tree.left):
         QTest.keyClick(tree.filter, Key.Key_Escape)
+
+
+def test_the_name_of_a_group_goes_on_where_a_value_would_be(qtbot):
+    name = "rig_control_000_of_the_left_hand"
+    document = Document(Clip([Channel(f"{name}.tx", make_run([0, 1], [0, 1]))], end=1))
+    tree = tree_of(document, qtbot)
+    view, index = tree.view, tree.view.rows.index(0, 0)
+    assert view.fontMetrics().horizontalAdvance(name) > view.visualRect(index).width()
+    value = view.visualRect(index.siblingAtColumn(Column.VALUE))
+    image = view.viewport().grab(value).toImage()
+    inked = [
+        x
+        for x in range(value.width() - 4)
+        if any(image.pixelColor(x, y) != image.pixelColor(0, 0) for y in range(2, value.height() - 2))
+    ]
+    assert len(inked) > 10
