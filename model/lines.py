@@ -237,6 +237,8 @@ def dashes(line: Line, pattern: tuple[float, ...], top: float, bottom: float) ->
     Each span begins the pattern anew, so that an edit moves no dash beside it. Only what lies between *top* and
     *bottom* is cut: a chain may be very long where nobody sees it.
     """
+    if not len(line.x):
+        return np.empty((0, 4))
     x0, y0, x1, y1 = line.x[:-1], line.y[:-1], line.x[1:], line.y[1:]
     across, down = x1 - x0, y1 - y0
     length = np.hypot(across, down)

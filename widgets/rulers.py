@@ -111,7 +111,9 @@ def _draw_band(painter: QPainter, stage: Stage) -> None:
     window, clip, theme = stage.window, stage.document.clip, stage.theme
     if not clip.end > clip.start:
         return
-    x0, x1 = np.clip(window.x_from_time(np.array([clip.start, clip.end])), window.left - 9, window.right + 9).tolist()
+    with np.errstate(over="ignore"):
+        edges = window.x_from_time(np.array([clip.start, clip.end]))
+    x0, x1 = np.clip(edges, window.left - 9, window.right + 9).tolist()
     top = window.top - stage.px(BAND_HEIGHT)
     band = theme.range
     painter.setOpacity(0.45)

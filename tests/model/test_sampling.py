@@ -203,6 +203,13 @@ def test_dashes_begin_anew_at_every_key_so_that_edits_move_none_beside_them() ->
     assert right[0] == right[1] != []
 
 
+def test_where_no_span_is_seen_there_are_no_dashes() -> None:
+    nothing = line_through(
+        Channel("c", make_run([0.0, 1.0], [0.0, 1.0])).spans_between(2.0, 3.0), Window(0, 0, 9, 9, 2, 3, 0, 1)
+    )
+    assert dashes(nothing, (3.0, 4.0), 0.0, 9.0).shape == (0, 4)
+
+
 def test_a_line_of_a_million_pixels_costs_no_million_dashes() -> None:
     line = Line(np.array([0.0, 1.0]), np.array([-FAR, FAR]), np.array([2]))
     assert len(dashes(line, (3.0, 4.0), 0.0, 900.0)) == pytest.approx(900 / 7, abs=2)

@@ -38,7 +38,7 @@ def draw_extrapolation(painter: QPainter, stage: Stage, traces: Sequence[Trace],
         if ends is None:
             continue
         for after, time, value in ((False, ends.time0, ends.value0), (True, ends.time1, ends.value1)):
-            edge = left + (time - t0) * per_second
+            edge = min(max(left + (time - t0) * per_second, -HUGE), HUGE)
             low, high = (max(x0, edge), x1) if after else (x0, min(x1, edge))
             if low > high:
                 continue

@@ -21,7 +21,8 @@ def draw_ground(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
     pixels = np.frombuffer(row.bits(), np.uint32)
     pixels[:] = theme.background.rgba()
     if clip.end > clip.start:
-        edges = window.x_from_time(np.array([clip.start, clip.end])) - window.left
+        with np.errstate(over="ignore"):
+            edges = window.x_from_time(np.array([clip.start, clip.end])) - window.left
         start, end = np.rint(np.clip(edges, 0.0, window.width)).astype(np.intp).tolist()
         pixels[:start] = pixels[end:] = theme.outside.rgba()
     for places, color in ((stage.time_ticks.minor, theme.grid), (stage.time_ticks.major, theme.grid_strong)):

@@ -8,7 +8,7 @@ from model.labels import counted
 from model.selection import Selection
 from widgets.hit_test import Hit
 from widgets.tools.base import Cursor, Drag, Point
-from widgets.tools.scale import MIN_FACTOR, PADDING, SIDES, Bounds, ScaleKeys, ScaleTool
+from widgets.tools.scale import MIN_FACTOR, PADDING, SIDES, Bounds, ScaleKeys, ScaleTool, near
 
 
 class RetimeKeys(ScaleKeys):
@@ -47,7 +47,7 @@ class RetimeTool(ScaleTool):
 
     def box(self, bounds: Bounds) -> QRectF:
         """As high as the plot."""
-        x0, x1 = self.graph.x_from_time(bounds.t0), self.graph.x_from_time(bounds.t1)
+        x0, x1 = near(self.graph.x_from_time(bounds.t0)), near(self.graph.x_from_time(bounds.t1))
         plot = self.graph.plot_rect
         return QRectF(x0 - PADDING, plot.top(), x1 - x0 + 2 * PADDING, plot.height()).adjusted(0, 2, 0, -2)
 

@@ -27,6 +27,15 @@ MIN_ARM = 12.0
 SIDES = ((-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1))  # (time, value) of each handle
 
 
+# Pixels from here on are all the same: what is infinitely far has no middle.
+FARTHEST = 1e9
+
+
+def near(pixels: float) -> float:
+    """*pixels*, or as far as there may be."""
+    return min(max(pixels, -FARTHEST), FARTHEST)
+
+
 class Bounds(NamedTuple):
     """The extent of keys in time and value."""
 
@@ -139,8 +148,8 @@ class ScaleTool(SelectTool):
     def box(self, bounds: Bounds) -> QRectF:
         """The box around the keys in pixels."""
         graph = self.graph
-        x0, x1 = graph.x_from_time(bounds.t0), graph.x_from_time(bounds.t1)
-        y0, y1 = graph.y_from_value(bounds.v1), graph.y_from_value(bounds.v0)
+        x0, x1 = near(graph.x_from_time(bounds.t0)), near(graph.x_from_time(bounds.t1))
+        y0, y1 = near(graph.y_from_value(bounds.v1)), near(graph.y_from_value(bounds.v0))
         return QRectF(x0, y0, x1 - x0, y1 - y0).adjusted(-PADDING, -PADDING, PADDING, PADDING)
 
     def frame(self) -> tuple[Bounds, QRectF] | None:
@@ -254,7 +263,9 @@ class ScaleTool(SelectTool):
             self.graph.set_frame(None)
             return
         pivot = self.pivot_of(frame[0])
-        spot = QPointF(self.graph.x_from_time(pivot[0]), self.graph.y_from_value(pivot[1])) if pivot else None
+        spot = None
+        if pivot:
+            spot = QPointF(near(self.graph.x_from_time(pivot[0])), near(self.graph.y_from_value(pivot[1])))
         self.graph.set_frame(Frame(frame[1], tuple(spot for _, spot in self._handles(*frame)), spot))
 
     def pivot_of(self, bounds: Bounds) -> tuple[float, float] | None:
