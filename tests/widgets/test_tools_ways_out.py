@@ -5,7 +5,9 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QCloseEvent, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication
 
+from model import edits
 from model.clip import Clip
+from model.selection import Selection
 from tests.widgets.desk import Desk, beside
 from tests.widgets.hand import CTRL, LEFT, MIDDLE, PLAIN, RIGHT
 
@@ -142,3 +144,16 @@ def test_a_press_while_another_edit_is_open_changes_nothing(desk: Desk) -> None:
     assert desk.keys() == before
     assert desk.document.gesture is gesture
     gesture.cancel()
+
+
+def test_a_key_that_goes_while_the_button_is_on_it_is_not_dragged(desk: Desk) -> None:
+    spot = desk.spot(desk.low, 2)
+    desk.hand.press(spot)
+    pressed = desk.view.router.tool.grabbed.id
+    selection = Selection.of_key(desk.low, pressed)
+    desk.document.do("Delete", lambda clip: edits.delete(clip, selection))
+    desk.hand.move(beside(spot, 60, -40))
+    desk.hand.release(beside(spot, 60, -40))
+    assert pressed not in desk.low
+    assert desk.document.gesture is None
+    assert len(desk.edits) == 1

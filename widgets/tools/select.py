@@ -96,7 +96,8 @@ class SelectTool(Tool):
         A dense clip has a curve under nearly every pixel: only the one that was chosen before is taken by its line.
         """
         found, channel = self.grabbed, self.grabbed.channel
-        if channel is not None and not channel.locked:
+        gone = channel is not None and found.id != 0 and found.id not in channel  # since the button went down
+        if channel is not None and not channel.locked and not gone:
             if found.kind == "key":
                 return MoveKeys(self.graph, start, channel.key(found.id))
             if found.is_handle:
