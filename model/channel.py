@@ -106,6 +106,13 @@ class Channel(Curve):
             return False
         return bool(rows.row_of[key_id] >= 0)
 
+    def holds(self, ids: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Which of these ids are those of its keys."""
+        row_of = self._rows.row_of
+        known: NDArray[np.bool_] = (ids > 0) & (ids < len(row_of))
+        known &= row_of[np.where(known, ids, 0)] >= 0
+        return known
+
     def _key(self, rank: int) -> Keyframe | None:
         if not 0 <= rank < len(self):
             return None

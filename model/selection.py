@@ -143,11 +143,11 @@ class Selection:
         return Selection({channel: column for channel, column in self._ids.items() if channel in wanted})
 
     def pruned(self, channels: Iterable[Channel]) -> "Selection":
-        """The keys that still exist in one of *channels*; costs a pass over the selected keys."""
+        """The keys that still exist in one of *channels*."""
         kept = {}
         for channel in self.with_only(channels).channels:
             column = self._ids[channel]
-            alive = np.fromiter((key_id in channel for key_id in column.tolist()), np.bool_, len(column))
+            alive = channel.holds(column)
             kept[channel] = column if alive.all() else column[alive]
         return Selection(kept)
 

@@ -146,6 +146,16 @@ def test_a_press_while_another_edit_is_open_changes_nothing(desk: Desk) -> None:
     gesture.cancel()
 
 
+def test_what_is_selected_again_after_a_cancelled_press_is_still_there(desk: Desk) -> None:
+    chosen = Selection.of({desk.low: desk.low.run()["id"]})
+    desk.session.selection = chosen
+    desk.hand.press(desk.spot(desk.high, 1))
+    gone = Selection.of({desk.low: desk.low.run()["id"][:2]})
+    desk.document.do("Delete", lambda clip: edits.delete(clip, gone))
+    desk.hand.key(Qt.Key.Key_Escape)
+    assert desk.session.selection == chosen.minus(gone)
+
+
 def test_a_key_that_goes_while_the_button_is_on_it_is_not_dragged(desk: Desk) -> None:
     spot = desk.spot(desk.low, 2)
     desk.hand.press(spot)

@@ -115,7 +115,7 @@ class SelectTool(Tool):
         if stroke:
             selection, active = self.before
             alive = self.graph.document.clip.channels  # another clip may be why the stroke was cancelled
-            self.session.selection = selection.with_only(alive)
+            self.session.selection = selection.pruned(alive)
             self.session.active = active if active in alive else None
 
     # What a press does
