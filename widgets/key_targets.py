@@ -12,6 +12,7 @@ from model.channel import Channel
 from model.clip import Clip
 from model.document import Document, Gesture
 from model.expressions import Formula
+from model.hermite import LARGEST
 from model.keyframe import Run
 from model.selection import Selection
 from widgets.number_targets import GestureHolder
@@ -42,7 +43,7 @@ class SelectedKeys:
 
     def numbers(self, field: str) -> Floats:
         """Times, values or slopes of all selected keys as shown."""
-        columns = [run[field] * _factor(channel, field) for channel, run in self.runs()]
+        columns = [_as_shown(run[field], _factor(channel, field)) for channel, run in self.runs()]
         return np.concatenate(columns) if columns else NO_NUMBERS
 
     def unit(self) -> str:
@@ -109,13 +110,22 @@ class KeyTarget(GestureHolder):
     def _numbers(self, formula: Formula, channel: Channel, keys: Run) -> Floats:
         factor = _factor(channel, self._field)
         stored = keys[self._field]
-        before = stored * factor
-        wanted = formula(before, keys["time"], keys["value"] * factor_of(channel.unit))
+        before = _as_shown(stored, factor)
+        wanted = formula(before, keys["time"], _as_shown(keys["value"], factor_of(channel.unit)))
         return stored_from_shown(wanted, before, stored, factor)
 
 
 def _short(text: str) -> str:
     return text if len(text) <= LONGEST_FORMULA else f"{text[: LONGEST_FORMULA - 1]}…"
+
+
+def _as_shown(stored: Floats, factor: float) -> Floats:
+    """Numbers in the unit of the eye; what no double can hold there is the largest that there is."""
+    if factor == 1.0:
+        return stored
+    with np.errstate(over="ignore"):
+        shown: Floats = np.clip(stored * factor, -LARGEST, LARGEST)
+    return shown
 
 
 def _factor(channel: Channel, field: str) -> float:

@@ -331,3 +331,12 @@ def test_nothing_selected_means_nothing_to_edit(inspector, document):
 
 def test_every_override_is_guarded():
     assert unguarded(ValueField) == unguarded(ScrubLabel) == unguarded(KeyInspector) == []
+
+
+def test_an_angle_too_large_for_degrees_is_shown_as_the_largest_number(qtbot):
+    document = Document(Clip([Channel("root.rx", make_run([0, 1], [1e308, 0.0]), unit="angle")]))
+    inspector = KeyInspector(document, Theme("dark"))
+    qtbot.addWidget(inspector)
+    select(inspector, document, rx=[0])
+    assert float(inspector.key.fields["value"].text()) == pytest.approx(1.797e308, rel=1e-2)
+    assert values(document, "root.rx") == [1e308, 0.0]
