@@ -84,7 +84,8 @@ class ContextMenu(QObject):
             if name == SEPARATOR:
                 menu.addSeparator()
             elif name.startswith("menu:"):
-                menu.addMenu(self._window.menus[name.removeprefix("menu:")])
+                # Its action only: a menu that is added becomes a child here, and Python loses it with this one.
+                menu.addAction(self._window.menus[name.removeprefix("menu:")].menuAction())
             else:
                 menu.addAction(self._window.actions_by_id[name])
         menu.popup(at)

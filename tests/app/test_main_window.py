@@ -7,8 +7,9 @@ import weakref
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLineEdit, QUndoView, QWidget
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QUndoView, QWidget
 from pytestqt.qtbot import QtBot
+from shiboken6 import isValid
 
 from app.main_window import MainWindow
 from app.settings import Settings
@@ -17,6 +18,7 @@ from model.document import Document
 from model.selection import Selection
 from tests.app.conftest import MakeWindow, small_clip
 from widgets.guard import unguarded
+from widgets.hit_test import hit
 from widgets.theme import Theme
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
@@ -177,6 +179,36 @@ def test_the_context_menu_of_a_key_selects_it_first(qtbot: QtBot, window: MainWi
     assert window.session.selection.count == 1
     assert window.actions_by_id["edit.delete"] in menu.actions()
     menu.close()
+
+
+@pytest.mark.parametrize("place", ["key", "curve"])
+def test_the_context_menu_comes_every_time_and_leaves_the_menus_whole(
+    qtbot: QtBot, window: MainWindow, place: str
+) -> None:
+    viewport, spot = window.view.viewport(), spot_of(window, "root.tx", 2)
+    if place == "curve":
+        channel = window.document.clip.channel("root.tx")
+        window.session.active = channel
+        y = window.view.y_from_value(channel.value(1.5))
+        spot = QPoint(round(float(window.view.x_from_time(1.5))), round(float(y)))
+    found = hit(window.view, spot.x(), spot.y())
+    assert found.kind == place
+    for _ in range(3):
+        window.view.router.context_menu_requested.emit(viewport.mapToGlobal(spot), found)
+        menu = QApplication.activePopupWidget()
+        assert isinstance(menu, QMenu)
+        assert any(action.menu() is not None for action in menu.actions())
+        menu.close()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        qtbot.wait(20)
+    window.session.selection = Selection.of_all(window.document.clip.channels)
+    for name in ("tangent.menu", "curve.menu"):
+        window.refresh_actions()
+        window.actions_by_id[name].run()
+        popup = QApplication.activePopupWidget()
+        assert popup is not None
+        popup.close()
+    assert all(isValid(menu) for menu in window.menus.values())
 
 
 # --- the window's own state
