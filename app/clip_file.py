@@ -26,6 +26,7 @@ class Fingerprint(NamedTuple):
     device: int
     inode: int
     mtime_ns: int
+    ctime_ns: int  # no program can set it back
     size: int
     digest: int
 
@@ -74,7 +75,7 @@ def open_clip(path: str, skeleton: str | None = None, report: Report = unheard) 
     if after is not None and before == after:
         fingerprint = Fingerprint(*after, digest_of(data))
     elif after is not None:  # written while it was read: it counts as changed
-        fingerprint = Fingerprint(*after[:3], -1, NO_DIGEST)
+        fingerprint = Fingerprint(*after[:4], -1, NO_DIGEST)
     format_name = sniff(data)
     lost = losses(clip, format_name, path)
     for number, channel in enumerate(clip.channels):
@@ -100,13 +101,22 @@ def save_clip(content: Content, path: str, format_name: str, leave: Leave, repor
     def last_look(data: bytes, status: os.stat_result) -> None:
         if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
             raise _OverwritesError
-        found.append(Fingerprint(status.st_dev, status.st_ino, status.st_mtime_ns, status.st_size, digest_of(data)))
+        found.append(Fingerprint(*_told(status), digest_of(data)))
 
     try:
         result = save_content(held, path, format_name, part_of(report, 0.05, 1.0), last_look)
     except _OverwritesError:
         return Doubt(lost, overwrites_another=True)
-    return Saved(result, lost, found[0])
+    return Saved(result, lost, _in_its_place(found[0], path))
+
+
+def _in_its_place(new: Fingerprint, path: str) -> Fingerprint:
+    """What the new file is now: to be put in its place counts as a change of it."""
+    status = _status(path)
+    if status is None:
+        return new
+    moved = new._replace(ctime_ns=status[3])
+    return moved if moved[:5] == status else new
 
 
 class _OverwritesError(Exception):
@@ -149,7 +159,7 @@ def changed_since(path: str, known: Fingerprint | None) -> bool:
 def version_since(path: str, known: Fingerprint | None) -> tuple[bool, Fingerprint | None]:
     """The same, and what the file is now if that had to be found out."""
     status = _status(path)
-    if status is None or (known is not None and status == known[:4]):
+    if status is None or (known is not None and status == known[:5]):
         return False, known
     now = fingerprint_of(path)
     return known is None or now is None or now.digest != known.digest, now
@@ -160,9 +170,12 @@ def display_name(path: str) -> str:
     return Path(path).name
 
 
-def _status(path: str) -> tuple[int, int, int, int] | None:
+def _status(path: str) -> tuple[int, int, int, int, int] | None:
     try:
-        status = os.stat(path)
+        return _told(os.stat(path))
     except (OSError, ValueError):
         return None
-    return status.st_dev, status.st_ino, status.st_mtime_ns, status.st_size
+
+
+def _told(status: os.stat_result) -> tuple[int, int, int, int, int]:
+    return status.st_dev, status.st_ino, status.st_mtime_ns, status.st_ctime_ns, status.st_size

@@ -72,6 +72,16 @@ def test_a_file_that_is_written_while_it_is_read_counts_as_changed(path: Path, m
     assert changed_since(str(path), opened.fingerprint)
 
 
+def test_a_file_that_is_changed_behind_its_times_counts_as_changed(path: Path) -> None:
+    opened, status = open_clip(str(path)), path.stat()
+    path.write_bytes(CLIP.replace(b"0 1 flat", b"0 2 flat"))
+    os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+    assert path.stat().st_size == status.st_size
+    assert changed_since(str(path), opened.fingerprint)
+    path.write_bytes(CLIP)
+    assert not changed_since(str(path), opened.fingerprint)
+
+
 def test_what_cannot_be_read_is_one_sentence_that_names_the_file(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"nothing\.anim"):
         open_clip(str(tmp_path / "nothing.anim"))
