@@ -32,6 +32,8 @@ __all__ = ["Change", "Document", "Edit", "Gesture", "LongWork", "Membership", "S
 
 # A change of so many keys takes long enough to be left to `Document.long_work`: about 10 ms.
 MANY_KEYS: Final = 30_000
+# What there is to do for a channel, however few of its keys change, takes as long as so many keys more.
+LIKE_KEYS: Final = 100
 
 
 class LongWork(Protocol):
@@ -84,7 +86,8 @@ class Document:
         """
         try:
             with self.begin(label) as gesture:
-                if self.long_work is None or keys < MANY_KEYS:
+                channels = len(self.session.selection.channels) if keys else 0
+                if self.long_work is None or keys + LIKE_KEYS * channels < MANY_KEYS:
                     gesture.preview(compute, selection=selection)
                 else:
                     gesture.tell(self._at_length(label, partial(gesture.make, compute, selection)))
@@ -107,7 +110,7 @@ class Document:
             work(report)
             self._measure(touched, edit.selection_after)
 
-        if self.long_work is None or edit.key_count < MANY_KEYS:
+        if self.long_work is None or edit.key_count + LIKE_KEYS * len(edit.changes) < MANY_KEYS:
             work(unheard)
         else:
             self._at_length(edit.label, work_at_length)

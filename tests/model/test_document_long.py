@@ -158,3 +158,14 @@ def test_few_keys_and_previews_are_changed_at_once(desk: Desk) -> None:
     with desk.document.begin("Drag") as gesture:
         gesture.preview(desk.raised)
     assert desk.worker.texts == []
+
+
+def test_few_keys_of_very_many_channels_are_long_work_too() -> None:
+    clip = Clip([Channel(f"c{i}", make_run([0.0, 1.0], [0.0, 1.0])) for i in range(400)])
+    document, worker = Document(clip), Worker()
+    document.long_work = worker
+    chosen = document.session.selection = Selection.of_all(clip.channels)
+    edit = document.do("Raise", lambda clip: edits.nudge(clip, chosen, 0.0, 1.0), keys=chosen.count)
+    assert edit is not None
+    document.apply(edit.inverse())
+    assert worker.texts == ["Raise", "Raise"]
