@@ -185,7 +185,8 @@ def _pieces(clip: Clip, arguments: argparse.Namespace) -> Iterator[Floats]:
     end = clip.end if arguments.end is None else arguments.end
     rate = clip.frame_rate if arguments.rate is None else arguments.rate
     if start > end:
-        raise CommandError(f"hermite evaluate: --from {start!r} lies after --to {end!r}")
+        own = " (where one is not given, the clip's range counts)" if None in (arguments.start, arguments.end) else ""
+        raise CommandError(f"hermite evaluate: the first time {start!r} lies after the last, {end!r}{own}")
     # A last sample that falls short of the end by rounding alone is still meant.
     steps = (end - start) * rate * (1 + 1e-12) + 1e-9
     if not steps < _MOST_ROWS:

@@ -97,7 +97,7 @@ def time_ticks(low: float, high: float, length: float, gap: float, width: Callab
 def frame_ticks(low: float, high: float, rate: float, length: float, apart: float) -> NDArray[np.int64]:
     """The frames to number between two times in seconds, at least *apart* pixels from each other."""
     per_frame = length / (high - low) / rate
-    if not isfinite(rate) or max(abs(low), abs(high)) * rate > 1e15:
+    if not isfinite(rate) or not isfinite(per_frame) or max(abs(low), abs(high)) * rate > 1e15:
         return np.empty(0, np.int64)
     step = max(decimal_step(apart / per_frame), 1.0)
     return np.rint(multiples(low * rate, high * rate, step)).astype(np.int64)

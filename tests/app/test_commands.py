@@ -168,7 +168,10 @@ REFUSED = {
         ["evaluate", "{walk}", "--channel", "zzz"],
         "no channel 'zzz'; hermite info lists them",
     ),
-    "from behind to": (["evaluate", "{walk}", "--from", "2", "--to", "1"], "--from 2.0 lies after --to 1.0"),
+    "from behind to": (
+        ["evaluate", "{walk}", "--from", "2", "--to", "1"],
+        "the first time 2.0 lies after the last, 1.0",
+    ),
     "a rate of 0": (["evaluate", "{walk}", "--rate", "0"], "'0' is not above 0"),
     "too many samples": (
         ["evaluate", "{walk}", "--from", "0", "--rate", "1e9"],

@@ -94,3 +94,8 @@ def test_angles_stored_in_radians_are_ticked_in_degrees(qapp: QApplication, rati
     ticks = ticks_of(window, QFontMetricsF(font).horizontalAdvance, degrees=True)[1]
     assert "90°" in ticks.labels
     assert ticks.major[ticks.labels.index("90°")] == pytest.approx(np.pi / 2)
+
+
+@pytest.mark.parametrize("rate", [5e-324, 1e-310, 1e-306, 1e306])
+def test_a_rate_that_numbers_no_frame_in_view_is_no_error(rate):
+    assert len(frame_ticks(0.0, 1.0, rate, 800.0, 40.0)) <= 1
