@@ -2,9 +2,10 @@
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QToolButton
 
+from widgets.guard import guarded
 from widgets.theme import Theme
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ class FindCommandButton(QToolButton):
 
     def __init__(self, window: "MainWindow") -> None:
         super().__init__(window)
+        self._most = window.menuBar().sizeHint().height()
         action = window.actions_by_id["edit.find_command"]
         self.setObjectName("find_command")
         self.setText("Find command   Ctrl+K")
@@ -27,3 +29,13 @@ class FindCommandButton(QToolButton):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setAutoRaise(True)
         self.clicked.connect(action.trigger)
+
+    @guarded(QSize(0, 0))
+    def sizeHint(self) -> QSize:
+        """No higher than the menus' names: in a higher bar the style draws a line below each name."""
+        hint = super().sizeHint()
+        return QSize(hint.width(), min(hint.height(), self._most))
+
+    @guarded(QSize(0, 0))
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()

@@ -86,3 +86,16 @@ def test_the_first_window_is_no_larger_than_its_screen(
     assert window.width() < room.width()
     assert window.height() < room.height()
     assert window.minimumSizeHint().width() <= 700
+
+
+@pytest.mark.parametrize("appearance", ["light", "dark"])
+def test_the_menu_bar_has_one_line_along_its_bottom_and_none_below_each_name(
+    window: MainWindow, appearance: str
+) -> None:
+    window.set_appearance(appearance)
+    bar = window.menuBar()
+    image = bar.grab().toImage()
+    beside = image.width() // 2  # where no name is
+    between = bar.actionGeometry(bar.actions()[0]).right() - 2
+    column = [(image.pixelColor(between, y).name(), image.pixelColor(beside, y).name()) for y in range(bar.height())]
+    assert all(here == there for here, there in column)
