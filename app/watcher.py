@@ -93,7 +93,7 @@ class Watcher(QObject):
                 self._window.say("")
 
     def _undone(self, index: int) -> None:
-        if index < self._index:
+        if index < self._index and isValid(self._window) and isValid(self._window.status):
             self._window.say("")
         self._index = index
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QUndoView, QWidget
 from pytestqt.qtbot import QtBot
-from shiboken6 import isValid
+from shiboken6 import delete, isValid
 
 from app.main_window import MainWindow
 from app.settings import Settings
@@ -322,3 +322,13 @@ def test_what_a_button_does_stands_where_the_hint_was_and_moves_nothing(qtbot: Q
     assert window.status.selection.pos() == place
     window.statusBar().clearMessage()
     assert window.status.hint.text() == "Drag: select with a box"
+
+
+def test_the_history_may_be_emptied_after_the_line_of_words_is_gone(qapp: QApplication, settings: Settings) -> None:
+    window = MainWindow(Document(small_clip()), settings)
+    window.actions_by_id["edit.select_all"].run()
+    window.actions_by_id["key.up"].run()
+    delete(window.status)  # as Qt does with the parts of a window that ends, in whatever order
+    window.undo_stack.clear()
+    assert window.undo_stack.count() == 0
+    delete(window)
