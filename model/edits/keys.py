@@ -67,7 +67,8 @@ def _keep_slopes(window: Run, place: int, slope_in: float, slope_out: float) -> 
     columns = (window[name] for name in ("time", "value", "slope_in", "slope_out", "rule_in", "rule_out"))
     given_in, given_out = slopes_of(*columns)
     fixed = False
-    for side, wanted, given in (("in", slope_in, given_in[place]), ("out", slope_out, given_out[place])):
+    # In Python's numbers, whose differences may overflow without a word.
+    for side, wanted, given in (("in", slope_in, float(given_in[place])), ("out", slope_out, float(given_out[place]))):
         if window[f"rule_{side}"][place] == TangentRule.STEP or abs(wanted - given) <= SAME_SLOPE * abs(wanted):
             continue
         window[f"rule_{side}"][place], window[f"slope_{side}"][place] = TangentRule.FIXED, wanted

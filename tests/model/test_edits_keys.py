@@ -159,3 +159,13 @@ def test_deleting_takes_the_selected_keys_and_no_others() -> None:
     assert ids(channel) == [*range(3, 2500), *range(2501, 5000)]
     document.do("All", lambda clip: edits.delete(clip, select(channel, *ids(channel))))
     assert len(channel) == 0
+
+
+def test_slopes_as_large_as_there_are_keep_a_curve_s_shape_without_a_warning() -> None:
+    slopes = [-1e308, -1e308, 1e308, 1.7e308], [1e308, -1e308, 1.7e308, 1.7e308]
+    rules = [[TangentRule(number) for number in side] for side in ((1, 5, 3, 3), (3, 1, 2, 3))]
+    run = make_run([1.0, 2.0, 3.0, 3.001], [1e308, 1e308, -1e308, 0.0], *slopes, *rules)
+    channel = Channel("x", run)
+    document = document_of(channel)
+    assert document.do("Insert", lambda clip: edits.insert(clip, channel, 2.978379362069007)) is not None
+    channel.check()
