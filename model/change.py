@@ -16,6 +16,7 @@ from model.extrapolation import Extrapolation
 from model.keyframe import Run
 from model.mapping import Mapping
 from model.selection import Selection
+from model.touched import Near, Touched
 
 LONGEST_TEXT = 1024
 KEYS_AT_A_TIME = 4096
@@ -69,6 +70,7 @@ class Shift(NamedTuple):
     slack: float  # keys that come no more than so many seconds near to each other are a matter for splices
     splices: Callable[[], list[Splice]]  # the same as splices, worked out while the channel is as it was
     within: Run | None = None  # now that it has been put in: the neighbouring keys among which its own were
+    passed: bool = False  # now that it has been put in: its only key stands among others than before
 
 
 type Change = Splice | Shift | Setting | Membership
@@ -112,40 +114,6 @@ def spliced(changes: Iterable[Change]) -> list[Splice]:
     return [change for change in changes if isinstance(change, Splice)]
 
 
-class Touched:
-    """What changes have touched, and so what must be told."""
-
-    __slots__ = ("intervals", "keys_came_or_went", "membership", "settings")
-
-    def __init__(self) -> None:
-        self.intervals: dict[Channel, tuple[float, float]] = {}
-        self.settings: dict[tuple[Channel | Clip, str], None] = {}
-        self.membership = False
-        self.keys_came_or_went = False
-
-    def widen(self, channel: Channel, t0: float, t1: float) -> None:
-        """Add [t0, t1] of *channel*; t0 > t1 adds nothing."""
-        known = self.intervals.get(channel)
-        if known is not None:
-            t0, t1 = min(t0, known[0]), max(t1, known[1])
-        if t0 <= t1:
-            self.intervals[channel] = (t0, t1)
-
-    def add(self, other: "Touched") -> None:
-        """Add what *other* holds."""
-        for channel, (t0, t1) in other.intervals.items():
-            self.widen(channel, t0, t1)
-        self.settings.update(other.settings)
-        self.membership |= other.membership
-        self.keys_came_or_went |= other.keys_came_or_went
-
-    def copy(self) -> "Touched":
-        """The same once more."""
-        twin = Touched()
-        twin.add(self)
-        return twin
-
-
 def shifted(shift: Shift, touched: Touched) -> Change | None:
     """Put *shift* in by its channel's short way; it, or the splice it was, or None if that way is closed."""
     done = shift.channel.shift(shift.before, shift.mapping, shift.slack)
@@ -154,6 +122,9 @@ def shifted(shift: Shift, touched: Touched) -> Change | None:
     touched.widen(shift.channel, done.t0, done.t1)
     touched.keys_came_or_went |= not done.same_order
     channel, before = shift.channel, done.before
+    if done.near is not None:
+        touched.nearest[channel] = Near(int(before["id"][0]), *done.near)
+        return shift._replace(within=before, passed=not done.same_order)
     if done.after is not None:
         return Splice(channel, before, done.after)
     return shift if len(before) == len(shift.before) else shift._replace(within=before)
@@ -168,8 +139,15 @@ def unshifted(changes: Iterable[Change]) -> list[Splice | Setting | Membership]:
         elif change.within is None:
             found += change.splices()
         else:
-            found.append(Splice(change.channel, change.within, change.channel.stored(change.within)))
+            found += replacing(change.channel, change.within, change.channel.stored(change.within), change.passed)
     return found
+
+
+def replacing(channel: Channel, before: Run, after: Run, passed: bool) -> list[Splice]:
+    """The splices that make *after* of *before*: two if keys that stay where they are have been *passed*."""
+    if not passed:
+        return [Splice(channel, before, after)]
+    return [Splice(channel, before, before[:0]), Splice(channel, after[:0], after)]
 
 
 def validated(change: Change) -> Change:

@@ -11,6 +11,7 @@ from model import checking, evaluation, picking, splicing, within
 from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
+from model.hopping import hop
 from model.keyframe import Keyframe, Run
 from model.mapping import Added, Mapping
 from model.resorting import MOST_RESORTED, Resorting
@@ -47,7 +48,8 @@ class Spliced(NamedTuple):
 class Shifted(NamedTuple):
     """The same (t0, t1); whether the keys are in the order they were; neighbours as they were, and as they are given.
 
-    Where they are very many, they are all keys, and what is given is left out.
+    Where they are very many, they are all keys, and what is given is left out. A single key comes alone, with the times
+    (t0, t1) of what depends on it where it is now.
     """
 
     t0: float
@@ -55,6 +57,7 @@ class Shifted(NamedTuple):
     same_order: bool
     before: Run
     after: Run | None
+    near: tuple[float, float] | None = None
 
 
 class Channel(Curve):
@@ -308,14 +311,21 @@ class Channel(Curve):
     def shift(self, before: Run, mapping: Mapping, slack: float) -> Shifted | None:
         """Change the keys *before* alike, by a way shorter than splices and with the same outcome.
 
-        None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for most of very
-        many keys, or many of not very many that are only moved, and they come more than *slack* seconds from others.
+        None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for one key that
+        is only moved, for most of very many keys, or many of not very many that are only moved, and they come more than
+        *slack* seconds from others.
         """
         rows = self._rows
         start = rows.start
         if start is None or start.left:
             return None
         after = None
+        if len(before) == 1 and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
+            hopped = hop(rows, before, mapping.time.amount, mapping.value.amount, slack, self.pre, self.post)
+            if hopped is None:
+                return None
+            self._changed()
+            return Shifted(hopped.t0, hopped.t1, not hopped.passed, before, None, hopped.near)
         if rows.many and len(before) >= (MOST if rows.size > MOST_RESORTED else 1.0) * rows.size:
             rank0, rank1, same_order, chosen = 0, rows.size, not mapping.mirrored, before
             before = self._all_keys(chosen)

@@ -11,7 +11,6 @@ from model.change import (
     Setting,
     Shift,
     Splice,
-    Touched,
     check_whole,
     put,
     shifted,
@@ -27,6 +26,7 @@ from model.progress import CancelledError, Report, unheard
 from model.selected import SelectedRuns
 from model.selection import Selection
 from model.session import Session
+from model.touched import Touched
 
 __all__ = ["Change", "Document", "Edit", "Gesture", "LongWork", "Membership", "Setting", "Splice", "added_keys"]
 

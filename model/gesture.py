@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from model.change import Change, Edit, Shift, Splice, Touched, differing, unshifted
+from model.change import Change, Edit, Shift, Splice, differing, replacing, unshifted
 from model.channel import Channel
 from model.clip import Clip
 from model.keyframe import Run
 from model.labels import counted
 from model.progress import Report, part_of, unheard
 from model.selection import NO_IDS, Ids, Selection, ids_without
+from model.touched import Touched
 
 if TYPE_CHECKING:
     from model.document import Document
@@ -193,9 +194,9 @@ class Gesture:
             self._rewind()
             self._put, self._touched = document._put_all(before, Touched(), read_back=False), told_before
             raise
-        self._touched = touched.copy()
-        touched.add(told_before)
-        return News(touched, self._without_gone(self._selection if chosen is None else chosen))
+        self._touched = touched
+        news = touched.instead_of(told_before)
+        return News(news, self._without_gone(self._selection if chosen is None else chosen))
 
     def commit(self) -> Edit | None:
         """Keep the present preview as one edit; None, and nothing is told, if nothing differs from the start.
@@ -220,7 +221,7 @@ class Gesture:
 
     def _worked_out(self) -> tuple[list[Change], int]:
         """What differs from the start, and how many keys gave way to others."""
-        changes = differing([self._read_back(change) for change in self._put])
+        changes = differing([stored for change in self._put for stored in self._read_back(change)])
         return changes, replaced_keys(changes)
 
     def cancel(self) -> None:
@@ -280,20 +281,22 @@ class Gesture:
                 self._fresh[got.channel] = new if known is None else np.concatenate([known, new])
         return stored
 
-    def _read_back(self, change: Change) -> Change:
+    def _read_back(self, change: Change) -> Sequence[Change]:
         """*change* with the slopes that the channel has made of it, unless another change has parted its keys."""
         if not isinstance(change, Splice | Shift):
-            return change
+            return [change]
         channel, before = change.channel, change.before
         if isinstance(change, Shift) and change.within is not None:
             before = change.within
         if before.base is not None:  # a part of a larger run, which the history need not hold
             before = before.copy()
         try:  # what is shifted as a whole has the same keys on both sides
-            after = change.after if isinstance(change, Splice) else before[:: -1 if change.mapping.mirrored else 1]
-            return Splice(channel, before, channel.stored(after))
+            if isinstance(change, Splice):
+                return [Splice(channel, before, channel.stored(change.after))]
+            after = channel.stored(before[:: -1 if change.mapping.mirrored else 1])
+            return replacing(channel, before, after, change.passed)
         except ValueError:
-            return unshifted([change])[0]
+            return unshifted([change])
 
     def _with_known_ids(self, splice: Splice, used: dict[Channel, int]) -> Splice:
         known = self._fresh.get(splice.channel)

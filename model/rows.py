@@ -224,9 +224,7 @@ class Rows:
         """Write *run* over the keys from rank0 on; coefficients are left as they are."""
         fields = NUMBER_FIELDS if slopes_too else NUMBER_FIELDS[:SLOPE_IN]
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + len(run)):
-            self._keep(
-                row, row + rows, place, self.width if place + count == held else place + count, keys_move=ids_too
-            )
+            self.keep(row, row + rows, place, self.width if place + count == held else place + count, keys_move=ids_too)
             part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
             at = np.s_[row : row + rows, place : place + count]
             for field, column in fields:
@@ -244,7 +242,7 @@ class Rows:
             if place == 0:
                 self.starts[row : row + rows] = self.number_grid[TIME, row : row + rows, 0].tolist()
 
-    def _keep(self, row0: int, row1: int, place0: int, place1: int, *, keys_move: bool, marks_too: bool = True) -> None:
+    def keep(self, row0: int, row1: int, place0: int, place1: int, *, keys_move: bool, marks_too: bool = True) -> None:
         """These places of the rows row0 to row1 are about to be written: numbers, marks, or keys as well."""
         self.likeness = None
         if self.start is not None:
@@ -269,7 +267,7 @@ class Rows:
         stop, n = column0 + len(numbers), numbers.shape[1]
         for rank, row, rows, place, count, held in self.blocks(rank0, rank0 + n):
             end = self.width if place + count == held else place + count
-            self._keep(row, row + rows, place, end, keys_move=False, marks_too=False)
+            self.keep(row, row + rows, place, end, keys_move=False, marks_too=False)
             grid = self.number_grid[column0:stop, row : row + rows]
             part = numbers[:, rank - rank0 : rank - rank0 + rows * count]
             grid[:, :, place : place + count] = part.reshape(len(numbers), rows, count)
@@ -299,7 +297,7 @@ class Rows:
         roomy = self.rows > 1 and 8 * (self.size + come - gone) < len(self.ids)
         if place + gone <= held and 0 < held + come - gone <= self.width and not roomy:
             self._forget(rank0, rank1)
-            self._shift(row, place, gone, come)
+            self.make_room(row, place, gone, come)
             self._store(rank0, run)
             return rank0, rank0 + come
         return self._share_out(rank0, rank1, run)
@@ -310,9 +308,9 @@ class Rows:
         numbers, marks = start.spare_grids(self)
         self.take_over((numbers, marks, self.id_grid.copy()), self.first.copy(), self.starts.copy())
 
-    def _shift(self, row: int, place: int, gone: int, come: int) -> None:
+    def make_room(self, row: int, place: int, gone: int, come: int) -> None:
         """Move what follows in the row, so that *come* keys have room where *gone* were."""
-        self._keep(row, row + 1, 0, self.width, keys_move=True)
+        self.keep(row, row + 1, 0, self.width, keys_move=True)
         held = self.held(row)
         new_held = held + come - gone
         tail_stays = place + come < new_held

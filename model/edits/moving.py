@@ -20,7 +20,7 @@ from model.selection import Selection
 TICK = 1e-9
 # Numbers added to at a time: they stay in the processor's cache.
 AT_A_TIME = 8192
-# Of fewer keys, or of fewer than one among so many others, splices are quicker.
+# Of fewer keys but one, or of fewer than one among so many others, splices are quicker.
 FEW, SCATTERED = 12, 64
 # A time factor nearer to 0 would put all keys at one time.
 SMALLEST_FACTOR = 1e-6
@@ -76,7 +76,7 @@ def move(clip: Clip, selection: Selection, d_time: float, d_value: float, *, reo
     changes: list[Change] = []
     for (channel, keys), limit in zip(keys_by_channel, limits, strict=True):
         splices = partial(_spliced, channel, keys, d_time, d_value, limit)
-        if len(keys) < FEW or limit is not None or len(channel) > SCATTERED * len(keys):
+        if limit is not None or (len(keys) > 1 and (len(keys) < FEW or len(channel) > SCATTERED * len(keys))):
             changes += splices()
             continue
         first, last = float(keys["time"][0]), float(keys["time"][-1])
