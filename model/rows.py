@@ -161,6 +161,9 @@ class Rows:
 
     def blocks(self, rank0: int, rank1: int) -> list[Block]:
         """The keys of these ranks as blocks of at most AT_A_TIME rows."""
+        begin, end, row = self.row_known
+        if begin <= rank0 < rank1 <= end:
+            return [Block(rank0, row, 1, rank0 - begin, rank1 - rank0, end - begin)]
         known = self.blocks_known.get((rank0, rank1))
         if known is None:
             if len(self.blocks_known) >= MOST_KNOWN:
@@ -182,6 +185,14 @@ class Rows:
             part = found[:, rank - rank0 : rank - rank0 + rows * count].reshape(stop, rows, count)
             part[:] = self.number_grid[:stop, row : row + rows, place : place + count]
         return found
+
+    def few(self, rank0: int, rank1: int) -> tuple[list[list[float]], list[list[int]]]:
+        """The columns up to the slopes, and the rules in and out, of the keys of these ranks as Python numbers."""
+        row, place = self.place(rank0)
+        end = place + rank1 - rank0
+        if end > self.held(row):
+            return self.columns(rank0, rank1, stop=A).tolist(), self.rules(rank0, rank1).tolist()
+        return self.number_grid[:A, row, place:end].tolist(), self.mark_grid[:BROKEN, row, place:end].tolist()
 
     def rules(self, rank0: int, rank1: int) -> NDArray[np.uint8]:
         """Copies of the rules in and out of the keys of these ranks: (2, n)."""

@@ -226,8 +226,7 @@ def rebuild(rows: Rows, rank0: int, rank1: int) -> None:
 def _rebuild_few(rows: Rows, spans0: int, slopes0: int, slopes1: int) -> None:
     # One key more on each side, for chords and for the last span.
     left, right = max(spans0 - 1, 0), min(slopes1 + 1, rows.size)
-    times, values, slopes_in, slopes_out = rows.columns(left, right, stop=SLOPE_OUT + 1).tolist()
-    rules_in, rules_out = rows.rules(left, right).tolist()
+    (times, values, slopes_in, slopes_out), (rules_in, rules_out) = rows.few(left, right)
     n = right - left
     for i in range(slopes0 - left, slopes1 - left):
         j, k = max(i - 1, 0), min(i + 2, n)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import batched
 from math import floor, hypot
+from operator import attrgetter
 from time import perf_counter
 from typing import Final, NamedTuple
 
@@ -32,6 +33,9 @@ KEPT: Final = 8 << 20
 np.empty(KEPT, np.uint8)
 
 
+_revision = attrgetter("channel.revision")
+
+
 class Look(NamedTuple):
     """Everything but the window that the backdrop's pixels depend on."""
 
@@ -46,7 +50,7 @@ class Look(NamedTuple):
     def of(cls, stage: Stage) -> "Look":
         """What the stage asks for now."""
         clip = stage.document.clip
-        revisions = tuple([trace.channel.revision for trace in stage.resting])
+        revisions = tuple(map(_revision, stage.resting))
         return cls(stage.theme.name, stage.degrees, clip.start, clip.end, stage.resting, revisions)
 
 

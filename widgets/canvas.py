@@ -19,7 +19,7 @@ from widgets.backdrop import SLICE, Backdrop
 from widgets.chosen import MOST
 from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
-from widgets.layers.drawings import drawing_of
+from widgets.layers.drawings import Drawing, changed_drawing, drawing_of
 from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of, may_be_named
@@ -288,11 +288,14 @@ class Canvas(QGraphicsItem):
             return False
         wholly = None if self._stage is None else self._stage.wholly.get(channel)
         many = len(self._document.session.selection.ids(channel))
-        return before[1] != manner_in(window, channel) or wholly not in (None, many == len(channel))
+        manner = manner_in(window, channel)
+        manners[channel] = channel.revision, manner  # it is asked for as soon as the change is drawn
+        return before[1] != manner or wholly not in (None, many == len(channel))
 
     def _repaint_change(self, channel: Channel, t0: float, t1: float) -> None:
         """Repaint what has changed of a curve and, if they are few, its handles as painted last and as they are now."""
         stage, hover = self._stage, self.overlay.hover
+        told = None if stage is None else stage.ready.pop(channel, None)  # as it was when the change before was told
         rings = hover is not None and hover.channel is channel and hover.kind != "key"
         if stage is None or rings or self._document.session.selection.count > MOST:
             self.repaint_times(t0, t1)
@@ -304,31 +307,50 @@ class Canvas(QGraphicsItem):
         strip = self._strip(t0, t1, MARK)
         if strip is not None:
             inside = isfinite(t0) and isfinite(t1)  # an extrapolation may be anywhere
-            self._repaint_strip(*strip, self._rows_changed(stage, channel, strip, boxes) if inside else None)
+            if inside:
+                self._draw_change(stage, channel, (t0, t1), told, strip, boxes)
+            self._repaint_strip(*strip, self._rows_changed(stage, channel, strip) if inside else None)
         for box in boxes:
             self._repaint_near(box, stage.window)
 
-    def _rows_changed(
-        self, stage: Stage, channel: Channel, strip: tuple[int, int], boxes: list["Box"]
-    ) -> tuple[float, float] | None:
-        """The rows of screen pixels in which a curve under the hand was painted last or is to be painted in the strip.
+    def _draw_change(
+        self,
+        stage: Stage,
+        channel: Channel,
+        times: tuple[float, float],
+        told: Drawing | None,
+        strip: tuple[int, int],
+        boxes: list["Box"],
+    ) -> None:
+        """Have at hand what is to be painted of a curve under the hand that has changed between two *times*.
 
-        None if that is not known, as before its first step. What is to be painted there is at hand from now on.
+        *told* is what was at hand when the change before was told; nothing else has been made of it since.
         """
         trace = stage.trace_of(channel)
         if trace is None or channel not in self._touched or len(channel) < 2:
+            return
+        now = None if told is None else changed_drawing(stage, trace, told, *times)
+        if now is None:
+            # As far as will be painted, and a little farther.
+            unit = stage.window.unit
+            low = min([strip[0] * unit, *(box[0] - MARK * unit for box in boxes)]) - 4 * unit
+            high = max([strip[1] * unit, *(box[2] + MARK * unit for box in boxes)]) + 4 * unit
+            now = drawing_of(stage, trace, low, high)
+        stage.ready[channel] = now
+
+    def _rows_changed(self, stage: Stage, channel: Channel, strip: tuple[int, int]) -> tuple[float, float] | None:
+        """The rows of screen pixels in which a curve under the hand was painted last or is to be painted in the strip.
+
+        None if that is not known, as before its first step.
+        """
+        before, now = stage.painted.get(channel), stage.ready.get(channel)
+        if before is None or now is None:
             return None
         unit = stage.window.unit
-        x0, x1, reach = strip[0] * unit, strip[1] * unit, MARK * unit
-        # As far as will be painted, and a little farther.
-        low = min([x0, *(box[0] - reach for box in boxes)]) - 4 * unit
-        high = max([x1, *(box[2] + reach for box in boxes)]) + 4 * unit
-        now = stage.ready[channel] = drawing_of(stage, trace, low, high)
-        before = stage.painted.get(channel)
-        rows = before.rows_between(x0, x1) if before is not None else None
-        rows_now = now.rows_between(x0, x1)
+        rows, rows_now = (each.rows_between(strip[0] * unit, strip[1] * unit) for each in (before, now))
         if rows is None or rows_now is None:
             return None
+        reach = MARK * unit
         return min(rows[0], rows_now[0]) - reach, max(rows[1], rows_now[1]) + reach
 
     def _repaint_near(self, box: "Box", window: Window) -> None:

@@ -21,7 +21,7 @@ from widgets.graph import Graph
 from widgets.guard import guarded
 from widgets.strokes import State, Strokes
 from widgets.tools import TOOLS
-from widgets.tools.base import Button, Modifier, Point, Tool
+from widgets.tools.base import ALT, Button, Modifier, Point, Tool
 from widgets.tools.navigate import Navigation, Rest, edge_push, pinched, wheeled
 
 EDGE_INTERVAL = 16
@@ -305,7 +305,7 @@ class MouseRouter(QObject):
         tool = self.strokes.tool
         if self.strokes.state is not State.DRAGGING or tool is None or tool.current is None or self._pointer is None:
             return 0.0, 0.0
-        if self._modifiers & Modifier.AltModifier:  # at a tenth of the speed what is dragged would be left behind
+        if self._modifiers.value & ALT:  # at a tenth of the speed what is dragged would be left behind
             return 0.0, 0.0
         return edge_push(self.graph.plot_rect, self.strokes.start, self._pointer[0], tool.current.scrolls)
 

@@ -102,6 +102,7 @@ class Stage:
     # That of the value ruler.
     unit: str = field(init=False)
     _words: dict[float, Words] = field(default_factory=dict)
+    _chosen: tuple[Selection, tuple[tuple[Trace, Ids], ...]] | None = None
     _by_channel: dict[Channel, Trace] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -117,8 +118,10 @@ class Stage:
     def chosen(self) -> tuple[tuple[Trace, Ids], ...]:
         """The shown channels with selected keys, and the ids of these."""
         selection = self.selection
-        found = ((self._by_channel.get(channel), selection.ids(channel)) for channel in selection.channels)
-        return tuple((trace, ids) for trace, ids in found if trace is not None)
+        if self._chosen is None or self._chosen[0] is not selection:
+            found = ((self._by_channel.get(channel), selection.ids(channel)) for channel in selection.channels)
+            self._chosen = selection, tuple((trace, ids) for trace, ids in found if trace is not None)
+        return self._chosen[1]
 
     @classmethod
     def at(cls, stage: "Stage", window: Window) -> "Stage":

@@ -56,7 +56,7 @@ class Strokes:
         """The pointer moved, or a modifier changed; *held* are the buttons down now."""
         if self.state is State.SPENT and held == Button.NoButton:
             self.state = State.IDLE
-        if self.busy and not held & self.start.button:
+        if self.busy and not held.value & self.start.button.value:
             self.cancel()  # the button went up where nobody told us
             self.state = State.IDLE
         if self.state is State.IDLE:

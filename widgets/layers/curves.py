@@ -27,7 +27,7 @@ def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
             if ready is not None and ready.serves(channel.revision, x0, x1):
                 stage.painted[channel] = ready
                 if ready.boxes is not None:
-                    draw_boxes(painter, trace.color, ready.boxes)
+                    draw_boxes(painter, trace.color, ready.boxes_between(x0, x1))
                 elif ready.line is not None:
                     lined.append((trace, ready.line))
                 continue

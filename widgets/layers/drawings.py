@@ -1,6 +1,6 @@
 """Drawing: what one curve looks like between two x, worked out where a change is told and painted a moment later."""
 
-from math import ceil, floor
+from math import ceil, floor, inf
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -39,8 +39,7 @@ class Drawing(NamedTuple):
         if not self.x0 <= x0 <= x1 <= self.x1:
             return None
         if self.boxes is not None:
-            lefts = self.boxes[:, 0]
-            here = self.boxes[lefts.searchsorted(floor(x0) - 1) : lefts.searchsorted(ceil(x1) + 1)]
+            here = self.boxes_between(x0, x1)
             return (float(here[:, 1].min()), float(here[:, 3].max())) if len(here) else None
         if self.line is None or not len(self.line.x):
             return None
@@ -48,13 +47,39 @@ class Drawing(NamedTuple):
         seen = y[max(int(x.searchsorted(x0)) - 1, 0) : int(x.searchsorted(x1, "right")) + 1]
         return float(seen.min()), float(seen.max())
 
+    def boxes_between(self, x0: float, x1: float) -> Boxes:
+        """Those of its boxes, one for each column, that touch what lies between two x."""
+        boxes = self.boxes
+        if boxes is None or not len(boxes):
+            return np.empty((0, 4), np.int32)
+        first = int(boxes[0, 0])
+        return boxes[max(floor(x0) - 1 - first, 0) : max(ceil(x1) + 1 - first, 0)]
+
 
 def drawing_of(stage: "Stage", trace: Trace, x0: float, x1: float) -> Drawing:
     """The curve of a channel of two keys or more between two x; it is drawn as the whole window says."""
-    channel = trace.channel
+    channel, window = trace.channel, stage.window
     if stage.manner_of(channel).columns:
-        return Drawing(channel.revision, x0, x1, None, boxes_of(stage.window, trace, x0, x1, inside=True))
-    return Drawing(channel.revision, x0, x1, line_of(stage.window, trace, x0, x1), None)
+        # All that can be seen, so that steps that follow find most of it at hand.
+        boxes = boxes_of(window, trace, window.left, window.right, inside=True)
+        return Drawing(channel.revision, -inf, inf, None, boxes)
+    return Drawing(channel.revision, x0, x1, line_of(window, trace, x0, x1), None)
+
+
+def changed_drawing(stage: "Stage", trace: Trace, before: Drawing, t0: float, t1: float) -> Drawing | None:
+    """What a curve in columns looks like after a change between two times; None if it has another number of columns."""
+    channel, window = trace.channel, stage.window
+    if before.boxes is None or not stage.manner_of(channel).columns:
+        return None
+    boxes, (low, high) = before.boxes, _columns_of(window, trace, window.left, window.right)
+    if not low < high or len(boxes) != high - low or boxes[0, 0] != int(window.left) + low:
+        return None
+    new = boxes_of(window, trace, window.x_from_time(t0), window.x_from_time(t1), inside=True)
+    if len(new):
+        first = int(new[0, 0]) - int(boxes[0, 0])
+        boxes = boxes.copy()
+        boxes[first : first + len(new)] = new
+    return before._replace(revision=channel.revision, boxes=boxes)
 
 
 def line_of(window: Window, trace: Trace, x0: float, x1: float) -> Line:
@@ -63,14 +88,24 @@ def line_of(window: Window, trace: Trace, x0: float, x1: float) -> Line:
     return line_through(spans, window, TOLERANCE if trace.soft else THICKET)
 
 
+def _columns_of(window: Window, trace: Trace, x0: float, x1: float) -> tuple[int, int]:
+    """Between two x, which columns hold some of the curve from the first to the last key: from, up to before."""
+    ends = trace.channel.ends()
+    if ends is None:
+        return 0, 0
+    low, high = _columns_between(window, x0, x1)
+    low = max(low, floor(min(max(window.x_from_time(ends.time0) - window.left, -1e9), 1e9)))
+    return low, min(high, floor(min(max(window.x_from_time(ends.time1) - window.left, -1e9), 1e9)) + 1)
+
+
+def _columns_between(window: Window, x0: float, x1: float) -> tuple[int, int]:
+    return max(floor(x0 - window.left) - 1, 0), min(ceil(x1 - window.left) + 1, ceil(window.width))
+
+
 def boxes_of(window: Window, trace: Trace, x0: float, x1: float, *, inside: bool, every: int = 1) -> Boxes:
     """The exact lowest to highest value of each pixel column; of the extrapolation every other group of *every*."""
-    ends = trace.channel.ends()
-    low, high = max(floor(x0 - window.left) - 1, 0), min(ceil(x1 - window.left) + 1, ceil(window.width))
-    if ends is not None and inside:
-        low = max(low, floor(min(max(window.x_from_time(ends.time0) - window.left, -1e9), 1e9)))
-        high = min(high, floor(min(max(window.x_from_time(ends.time1) - window.left, -1e9), 1e9)) + 1)
-    if ends is None or high <= low:
+    low, high = _columns_of(window, trace, x0, x1) if inside else _columns_between(window, x0, x1)
+    if high <= low or not len(trace.channel):
         return np.empty((0, 4), np.int32)
     top, bottom = columns(trace.channel, window, low, high, inside=inside)
     more = 1 if trace.active else 0

@@ -1,11 +1,12 @@
 """Handles: the ends of the tangents of selected keys, at one length on the screen, whatever the zoom."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from math import hypot
 from typing import Final, NamedTuple
 
-from PySide6.QtCore import QPointF
-from PySide6.QtGui import QPainter, QPen
+from PySide6.QtCore import QLineF, QPointF
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from model.channel import Channel
 from model.extrapolation import Extrapolation
@@ -125,17 +126,22 @@ def draw_handles(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: f
     if not shown:
         return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-    painter.setPen(QPen(theme.handle_line, stage.px(1.2)))
-    gap = stage.px(SELECTED)
+    painter.setPen(_pen(theme.handle_line.rgba(), stage.px(1.2)))
+    gap = SELECTED / LENGTH  # how much of the arm its key's mark covers
     for _, handles in shown:
-        key = QPointF(*handles.key)
+        x, y = handles.key
         for end in (handles.into, handles.out):
             if end is not None:
-                arm = QPointF(*end) - key
-                painter.drawLine(key + arm * (gap / stage.px(LENGTH)), QPointF(*end))
-    painter.setPen(QPen(theme.handle, stage.px(1.4)))
+                painter.drawLine(QLineF(x + (end[0] - x) * gap, y + (end[1] - y) * gap, *end))
+    painter.setPen(_pen(theme.handle.rgba(), stage.px(1.4)))
+    radius = stage.px(KNOB)
     for _, handles in shown:
         painter.setBrush(theme.background if handles.broken else theme.handle)
         for end in (handles.into, handles.out):
             if end is not None:
-                painter.drawEllipse(QPointF(*end), stage.px(KNOB), stage.px(KNOB))
+                painter.drawEllipse(QPointF(*end), radius, radius)
+
+
+@lru_cache(maxsize=64)
+def _pen(color: int, width: float) -> QPen:
+    return QPen(QColor.fromRgba(color), width)
