@@ -212,7 +212,7 @@ class Curve:
         return tuple(float(column[0]) for column in spans)  # type: ignore[return-value]  # as many as there are columns
 
     def _spans(self, rank0: int, rank1: int) -> Spans:
-        numbers = self._rows.columns(rank0, rank1 + 1)
+        numbers = self._rows.columns(rank0, rank1 + 1, stop=C + 1)
         times, (a, b, c) = numbers[TIME], numbers[A : C + 1, :-1]
         if not np.isfinite(numbers[A : C + 1, :-1]).all():
             a, b, c = evaluation.finite_coefficients(self._rows, self._rows.slots(np.arange(rank0, rank1)))

@@ -267,6 +267,7 @@ def view_steps(stack: QStackedWidget, name: str, clip: Clip) -> list[Line]:
     full = []
     for _ in range(12):
         view.zoom(next(zooms), 1.0, center)
+        QApplication.processEvents()  # what a zoom step shows at once; the full picture comes later
         start = perf_counter()
         settle(view)
         full.append(perf_counter() - start)
