@@ -96,15 +96,19 @@ def save_clip(content: Content, path: str, format_name: str, leave: Leave, repor
         return Doubt(lost, overwrites_another=False)
     if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
         return Doubt(lost, overwrites_another=True)
+    digests: list[int] = []
     found: list[Fingerprint] = []
+
+    def witness(data: bytes) -> None:
+        digests.append(digest_of(data))
 
     def last_look(data: bytes, status: os.stat_result) -> None:
         if not leave.whatever and os.path.exists(path) and changed_since(path, leave.version):
             raise _OverwritesError
-        found.append(Fingerprint(*_told(status), digest_of(data)))
+        found.append(Fingerprint(*_told(status), digests[0]))
 
     try:
-        result = save_content(held, path, format_name, part_of(report, 0.05, 1.0), last_look)
+        result = save_content(held, path, format_name, part_of(report, 0.05, 1.0), last_look, witness)
     except _OverwritesError:
         return Doubt(lost, overwrites_another=True)
     return Saved(result, lost, _in_its_place(found[0], path))

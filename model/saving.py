@@ -18,6 +18,7 @@ from model.formats.side_by_side import meanwhile
 from model.progress import Report, part_of, unheard
 
 type Verify = Callable[[bytes], None]
+type Witness = Callable[[bytes], None]
 type LastLook = Callable[[bytes, os.stat_result], None]
 
 _SUFFIX: Final = ".hermite-tmp"
@@ -73,6 +74,7 @@ def save_content(
     format_name: str,
     report: Report = unheard,
     last_look: LastLook | None = None,
+    witness: Witness | None = None,
 ) -> SaveResult:
     """The same of what is left of a clip in the format, as its row says.
 
@@ -86,24 +88,29 @@ def save_content(
         if lost:
             raise SaveError(name, f"what was written is not the clip ({lost[0]})")
 
-    return save_atomic(name, data, verify=verify, last_look=last_look)
+    return save_atomic(name, data, verify=verify, last_look=last_look, witness=witness)
 
 
 def save_atomic(
-    path: str | os.PathLike[str], data: bytes, *, verify: Verify | None = None, last_look: LastLook | None = None
+    path: str | os.PathLike[str],
+    data: bytes,
+    *,
+    verify: Verify | None = None,
+    last_look: LastLook | None = None,
+    witness: Witness | None = None,
 ) -> SaveResult:
     """Put *data* in the place of the file at *path*, or of the file that a link there leads to.
 
     *verify* gets *data* while the disk takes it, and raises if it is not right; what the disk gives back then must be
-    the same bytes. *last_look* gets them and what the new file is, at the last moment at which the old one is still in
-    its place. Raises SaveError (and whatever these two raise): then the old file is untouched. Mode, owner and
-    attributes are kept as far as the system allows.
+    the same bytes. *witness* gets them too, on the thread that brings them to the disk. *last_look* gets them and what
+    the new file is, at the last moment at which the old one is still in its place. Raises SaveError (and whatever these
+    three raise): then the old file is untouched. Mode, owner and attributes are kept as far as the system allows.
     """
     name = os.fspath(path)
     try:
         target = os.path.realpath(name)
         status = _status_of(name, target)
-        notes = _replace(target, status, data, verify, last_look)
+        notes = _replace(target, status, data, verify, last_look, witness)
     except (SaveError, FormatError):
         raise
     except (OSError, ValueError) as error:
@@ -133,25 +140,37 @@ def _status_of(name: str, target: str) -> os.stat_result | None:
 
 
 def _replace(
-    target: str, status: os.stat_result | None, data: bytes, verify: Verify | None, last_look: LastLook | None
+    target: str,
+    status: os.stat_result | None,
+    data: bytes,
+    verify: Verify | None,
+    last_look: LastLook | None,
+    witness: Witness | None,
 ) -> list[str]:
     """Write *data* beside *target*, check it and rename it; returns notes for the user."""
+    notes: list[str] = []
+    found: list[os.stat_result] = []
+
+    def bring() -> None:
+        _write_all(handle, data)
+        notes.extend(_keep_attributes(handle, target, status))
+        found.append(_taken(handle, data))
+        if witness is not None:
+            witness(data)
+
     temp = _temp_path(target)
     # A new file gets the mode that the user's umask asks for, from the system itself.
     handle = os.open(temp, os.O_RDWR | os.O_CREAT | os.O_EXCL | _FLAGS, 0o666 if status is None else 0o600)
     try:
         try:
-            _write_all(handle, data)
-            notes = _keep_attributes(handle, target, status)
             if verify is None:
-                written = _taken(handle, data)
+                bring()
             else:
-                found: list[os.stat_result] = []
-                with meanwhile(lambda: found.append(_taken(handle, data))):
+                with meanwhile(bring):
                     verify(data)
-                written = found[0]
         finally:
             os.close(handle)
+        (written,) = found
         if _version(os.stat(temp)) != _version(written) and not _still_holds(temp, data):
             raise OSError(errno.EIO, "the new file was changed by something else before it was in its place")
         if last_look is not None:

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable
 from pathlib import Path
+from time import monotonic
 
 import pytest
 
@@ -130,9 +131,12 @@ def test_a_new_file_that_is_damaged_while_it_is_checked_does_not_get_into_its_pl
 ) -> None:
     def damage() -> None:
         temp = next(file for file in path.parent.iterdir() if file != path)
+        start = monotonic()
+        while not temp.stat().st_size:
+            assert monotonic() - start < 10.0, "the new file was not written"
         os.truncate(temp, 10)
 
-    # The check runs beside the reading back: which of the two sees the damage is left open.
+    # The check runs beside the writing and the reading back: which of the two sees the damage is left open.
     with pytest.raises(SaveError, match=r"other bytes than were written|changed by something else"):
         saved_while(path, monkeypatch, damage)
     assert path.read_bytes() == CLIP

@@ -19,7 +19,7 @@ from model.formats import read_clip, write_bytes
 from model.formats.content import Content
 from model.keyframe import make_run
 from model.progress import Report
-from model.saving import Durability, LastLook, SaveError, SaveResult, save_content
+from model.saving import Durability, LastLook, SaveError, SaveResult, Witness, save_content
 from tests.app.conftest import MakeWindow, answers_of, small_clip
 
 
@@ -250,8 +250,10 @@ def test_a_failed_save_is_told_and_the_clip_stays_unsaved(opened: MainWindow, mo
 def test_a_save_that_the_disk_did_not_confirm_counts_as_unsaved(
     opened: MainWindow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def doubt(content: Content, path: str, format_name: str, report: Report, last_look: LastLook) -> SaveResult:
-        save_content(content, path, format_name, report, last_look)
+    def doubt(
+        content: Content, path: str, format_name: str, report: Report, last_look: LastLook, witness: Witness
+    ) -> SaveResult:
+        save_content(content, path, format_name, report, last_look, witness)
         return SaveResult(Path(path), Durability.UNCONFIRMED, ("the disk did not confirm the save",))
 
     monkeypatch.setattr(app.clip_file, "save_content", doubt)
