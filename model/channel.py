@@ -7,20 +7,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model import checking, evaluation, picking, splicing, within
+from model import checking, evaluation, picking, short_ways, splicing, within
 from model.curve import Curve
 from model.curve import Spans as Spans
 from model.extrapolation import Extrapolation
-from model.hopping import hop
-from model.keyframe import Keyframe, Run
-from model.mapping import Added, Mapping
-from model.resorting import MOST_RESORTED, Resorting
+from model.keyframe import KEY_DTYPE, Keyframe, Run
+from model.mapping import Mapping
 from model.rewinding import Question, Start
 from model.rows import MARK_FIELDS, NUMBER_FIELDS, VALUE
-from model.shifting import shift
+from model.short_ways import Shifted
 
-# Where a smaller share of very many keys changes, splices are quicker.
-MOST = 0.6
 # Where fewer than one key in so many is asked for, keys are read one by one and not with those between them.
 SPARSE = 4
 
@@ -43,21 +39,6 @@ class Spliced(NamedTuple):
     t1: float
     given: Run
     same_ids: bool
-
-
-class Shifted(NamedTuple):
-    """The same (t0, t1); whether the keys are in the order they were; neighbours as they were, and as they are given.
-
-    Where they are very many, they are all keys, and what is given is left out. A single key comes alone, with the times
-    (t0, t1) of what depends on it where it is now.
-    """
-
-    t0: float
-    t1: float
-    same_order: bool
-    before: Run
-    after: Run | None
-    near: tuple[float, float] | None = None
 
 
 class Channel(Curve):
@@ -167,8 +148,8 @@ class Channel(Curve):
 
     # --- runs
 
-    def _run(self, rank0: int, rank1: int) -> Run:
-        run = self._rows.run(rank0, rank1)
+    def _run(self, rank0: int, rank1: int, into: Run | None = None) -> Run:
+        run = self._rows.run(rank0, rank1, into)
         run.flags.writeable = False
         return run
 
@@ -280,7 +261,8 @@ class Channel(Curve):
     def stored(self, given: Run) -> Run:
         """The neighbouring keys with the ids of *given* as the channel holds them; ValueError if they are not there."""
         rank0 = splicing.rank_of_run(self._rows, given, given)
-        return self._run(rank0, rank0 + len(given))
+        room = None if self._rows.start is None else self._rows.start.room_for(len(given))
+        return self._run(rank0, rank0 + len(given), room)
 
     def replace(self, before: Run, after: Run) -> Spliced:
         """The same as `splice` without reading back what the channel has made of *after*."""
@@ -311,45 +293,33 @@ class Channel(Curve):
     def shift(self, before: Run, mapping: Mapping, slack: float) -> Shifted | None:
         """Change the keys *before* alike, by a way shorter than splices and with the same outcome.
 
-        None, and nothing has changed, where that way is not open: it begins at the start of a gesture, for one key that
-        is only moved, for most of very many keys, or many of not very many that are only moved, and they come more than
-        *slack* seconds from others.
+        None, and nothing has changed, where that way is not open (see `short_ways`).
         """
-        rows = self._rows
-        start = rows.start
+        start = self._rows.start
         if start is None or start.left:
             return None
-        after = None
-        if len(before) == 1 and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
-            hopped = hop(rows, before, mapping.time.amount, mapping.value.amount, slack, self.pre, self.post)
-            if hopped is None:
-                return None
+        done = short_ways.shifted(self._rows, start, before, mapping, slack, self._all_keys, self.pre, self.post)
+        if done is not None:
             self._changed()
-            return Shifted(hopped.t0, hopped.t1, not hopped.passed, before, None, hopped.near)
-        if rows.many and len(before) >= (MOST if rows.size > MOST_RESORTED else 1.0) * rows.size:
-            rank0, rank1, same_order, chosen = 0, rows.size, not mapping.mirrored, before
-            before = self._all_keys(chosen)
-            old = splicing.outer(rows, 0, rows.size)
-            if not shift(rows, start, before, chosen, mapping, slack):
-                return None
-        elif rows.size <= MOST_RESORTED and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
-            if start.resorting is None or start.resorting.keys is not before:
-                start.resorting = Resorting(rows, before)
-            resorting = start.resorting
-            resorted = resorting.moved(mapping.time, mapping.value, slack)
-            if resorted is None:
-                return None
-            rank0, rank1, order = resorted
-            old = splicing.outer(rows, rank0, rank1)
-            resorting.store(rows, start, order)
-            before, same_order = resorting.run[rank0:rank1], order is None
-            after = resorting.given(resorted)
+        return done
+
+    def prepared(self, ids: NDArray[np.int64]) -> Iterator[None]:
+        """In steps, after `hold`: have at hand what each change of the keys with these ids begins with."""
+        rows, start = self._rows, self._rows.start
+        if start is None:
+            return
+        if len(ids) == len(self) and not ids.flags.writeable:
+            keys: Run = np.empty(len(ids), KEY_DTYPE)
+            yield from rows.reading(0, len(ids), keys)
+            keys.flags.writeable = False
+            start.remember(ids, keys)
         else:
-            return None
-        self._changed()
-        old_times = float(before["time"][0]), float(before["time"][-1])
-        t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, self.pre, self.post)
-        return Shifted(t0, t1, same_order, before, after)
+            keys = self.keys_of(ids)
+            yield
+        yield from short_ways.prepared(rows, start, keys, self._all_keys)
+        if start.shifting is not None and len(keys) == len(self):
+            self._made_again_and_again(start.shifting.extent)
+            yield
 
     def _all_keys(self, chosen: Run) -> Run:
         """All keys, which are the *chosen* ones if those are as many; ValueError if they are not there."""

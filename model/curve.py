@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from model import envelope, evaluation, extremes
 from model.extrapolation import EXTRAPOLATIONS, Ends, Extrapolation
 from model.hermite import LARGEST, Floats
+from model.likeness import Extent
 from model.lookup import DOUBLE, SLOTS_A_TIME, TABLE_TIMES, Table, span_struct
 from model.rows import D_TIME, TIME, VALUE, A, B, C, Rows
 
@@ -270,11 +271,18 @@ class Curve:
         array = np.asarray(edges, np.float64)
         if len(self) == 0:
             return np.zeros(max(len(array) - 1, 0)), np.zeros(max(len(array) - 1, 0))
+        return envelope.envelope(self._rows, self._the_extremes(), self._the_ends(), array, self.pre, self.post)
+
+    def _the_extremes(self) -> extremes.Extremes:
         if self._extremes is None or self._extremes.shape != self._rows.number_grid.shape:
             self._extremes = extremes.Extremes(self._rows)
         elif self._extremes.numbers is not self._rows.numbers:
             self._extremes.begin(self._rows)
-        return envelope.envelope(self._rows, self._extremes, self._the_ends(), array, self.pre, self.post)
+        return self._extremes
+
+    def _made_again_and_again(self, extent: Extent) -> None:
+        """Others will be made of all these keys, of this extent, again and again."""
+        self._the_extremes().prepare(self._rows, extent)
 
 
 def _further(time: float, read: _Read, columns: Buffer, place: int) -> Span:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from model import evaluation, hermite
 from model.hermite import Floats
-from model.likeness import Likeness
+from model.likeness import Extent, Likeness
 from model.rows import VALUE, A, B, C, Rows, Slots
 from model.suspects import Known, Range, key_ranges, safe, suspects
 
@@ -108,13 +108,22 @@ class Extremes:
         """The same for all rows, from what is known of those they are made of; None if that does not do."""
         if likeness is None:
             return None
-        if self._made_of is None or self._made_of.extent is not likeness.extent:
-            self._made_of = Known.of(rows, likeness, self.block, _parts(range(rows.rows)), self._room)
-        made = self._made_of.made(likeness)
+        made = self._origin(rows, likeness.origin, likeness.extent).made(likeness)
         if made is None:
             return None
         self.block_low[:], self.block_high[:], slots = made
         return slots
+
+    def prepare(self, rows: Rows, extent: Extent) -> None:
+        """Look at *rows*, of this extent, before others are made of them again and again."""
+        if not self.each:
+            self._origin(rows, rows.number_grid, extent)
+
+    def _origin(self, rows: Rows, origin: Floats, extent: Extent) -> Known:
+        """What is known of the rows of this extent; *rows* have the same shape."""
+        if self._made_of is None or self._made_of.extent is not extent:
+            self._made_of = Known.of(rows, origin, extent, self.block, _parts(range(rows.rows)), self._room)
+        return self._made_of
 
     def _widen(self, rows: Rows, slots: Slots) -> None:
         """Have the turns of these spans in the ranges of their blocks."""

@@ -1,6 +1,6 @@
 """Gesture: a change under way, shown as it would be, until it is kept or taken back."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -157,6 +157,13 @@ class Gesture:
             self._label = label
         self.tell(news)
 
+    def prepared(self, selection: Selection) -> Iterator[None]:
+        """In short steps: have at hand what previews that change the *selection* begin with."""
+        for channel in selection.channels:
+            if not channel.locked:
+                self._hold(channel)
+                yield from channel.prepared(selection.ids(channel))
+
     def make(self, compute: Compute, selection: Selecting, report: Report) -> News:
         """Preview and work out what `commit` keeps, telling nobody yet: what of an edit may be done on any thread.
 
@@ -249,12 +256,11 @@ class Gesture:
         self._document._put_all(settings, Touched())
         self._put, self._kept = [], None
 
-    def _hold(self, changes: Iterable[Change]) -> None:
-        """Let the channels that *changes* splice keep what they overwrite."""
-        for change in changes:
-            if isinstance(change, Splice | Shift) and change.channel not in self._held:
-                self._held[change.channel] = None
-                change.channel.hold()
+    def _hold(self, channel: Channel) -> None:
+        """Let *channel* keep what splices overwrite."""
+        if channel not in self._held:
+            self._held[channel] = None
+            channel.hold()
 
     def _release(self) -> None:
         for channel in self._held:
@@ -262,7 +268,9 @@ class Gesture:
 
     def _stored(self, changes: list[Change], touched: Touched, report: Report) -> list[Change]:
         """Put *changes* in; a new key has the same id in every preview, so that a drag can go on holding it."""
-        self._hold(changes)
+        for change in changes:
+            if isinstance(change, Splice | Shift):
+                self._hold(change.channel)
         changes = _clear(changes)
         asking = [i for i, change in enumerate(changes) if isinstance(change, Splice) and _asks_for_ids(change.after)]
         used: dict[Channel, int] = {}

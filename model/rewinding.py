@@ -1,12 +1,13 @@
 """Start: the rows of a channel as they were before a gesture, so that each preview begins there without a splice."""
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from model.hermite import Floats
-from model.keyframe import Run
+from model.keyframe import KEY_DTYPE, Run
 
 if TYPE_CHECKING:
     from model.resorting import Resorting
@@ -17,6 +18,8 @@ type Grids = tuple[Floats, NDArray[np.uint8], NDArray[np.int32]]
 
 
 NO_COLUMNS: frozenset[int] = frozenset()
+# So much of fresh memory is touched in some milliseconds.
+BYTES_A_STEP = 4 << 20
 # Each preview asks for the selected keys and for those around them.
 MOST_RUNS = 3
 
@@ -62,6 +65,7 @@ class Start:
         # Which columns of the spare numbers are those of the start, by those who fill them.
         self.spare_columns = NO_COLUMNS
         self._keys_moved = False
+        self._room: Run | None = None
         # What is worked out once of those rows, for keys that are moved again and again.
         self.shifting: Shifting | None = None
         self.resorting: Resorting | None = None
@@ -139,6 +143,22 @@ class Start:
             twins[1][:], twins[2][:] = rows.mark_grid, rows.id_grid
         self._spare_keys = True
         return twins
+
+    def making_room(self, count: int) -> Iterator[None]:
+        """In steps: have memory at hand for so many keys, as the history will hold."""
+        room = np.empty(count, KEY_DTYPE)
+        every = room.view(np.uint8)
+        for at in range(0, len(every), BYTES_A_STEP):
+            every[at : at + BYTES_A_STEP] = 0
+            yield
+        self._room = room
+
+    def room_for(self, count: int) -> Run | None:
+        """Memory for so many keys, to be kept; None if there is none at hand."""
+        if self._room is None or len(self._room) != count:
+            return None
+        room, self._room = self._room, None
+        return room
 
     def write_keys(self) -> None:
         """Marks and ids of twin grids are about to be written."""

@@ -11,6 +11,7 @@ of rules: whoever stores keys here works out slopes and coefficients afterwards 
 """
 
 from bisect import bisect_right
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -202,9 +203,15 @@ class Rows:
             part[:] = self.mark_grid[:BROKEN, row : row + rows, place : place + count]
         return found
 
-    def run(self, rank0: int, rank1: int) -> Run:
-        """The keys of these ranks."""
-        run = np.empty(rank1 - rank0, KEY_DTYPE)
+    def run(self, rank0: int, rank1: int, into: Run | None = None) -> Run:
+        """The keys of these ranks, *into* which records if given."""
+        run = np.empty(rank1 - rank0, KEY_DTYPE) if into is None else into
+        for _ in self.reading(rank0, rank1, run):
+            pass
+        return run
+
+    def reading(self, rank0: int, rank1: int, run: Run) -> Iterator[None]:
+        """Read the keys of these ranks into the records *run*, in as many steps as there are blocks."""
         for rank, row, rows, place, count, _ in self.blocks(rank0, rank1):
             part = run[rank - rank0 : rank - rank0 + rows * count].reshape(rows, count)
             at = np.s_[row : row + rows, place : place + count]
@@ -213,7 +220,7 @@ class Rows:
             for field, column in MARK_FIELDS:
                 part[field] = self.mark_grid[column][at]
             part["id"] = self.id_grid[at]
-        return run
+            yield
 
     def ids_between(self, rank0: int, rank1: int) -> NDArray[np.int64]:
         """The ids of the keys of these ranks."""

@@ -4,6 +4,7 @@ Columns are read once, and what follows from them is worked out while they are i
 unusual is left to a splice, which gives the same numbers.
 """
 
+from collections.abc import Iterator
 from math import inf, isfinite
 from typing import NamedTuple
 
@@ -61,6 +62,24 @@ def shift(rows: Rows, start: Start, keys: Run, chosen: Run, mapping: Mapping, sl
     return True
 
 
+def prepared(rows: Rows, start: Start, keys: Run) -> Iterator[None]:
+    """In steps, before the first change of *keys*, all those of the start: have at hand what each begins with.
+
+    The memory too: to touch fresh one for the first time takes longer than to fill it.
+    """
+    start.shifting = Shifting(rows, keys)
+    yield
+    yield from start.shifting.reading(rows)
+    twins = start.twin_grids(rows)
+    yield
+    for column, numbers in zip(twins[0], rows.number_grid, strict=True):
+        column[:] = numbers
+        yield
+    start.give_back(twins)
+    start.spare_columns = frozenset(range(len(twins[0])))
+    yield from start.making_room(len(keys))
+
+
 def _same_columns(mapping: Mapping) -> frozenset[int]:
     """The columns that stay as they are."""
     if mapping.mirrored:
@@ -90,13 +109,18 @@ class _Piece(NamedTuple):
 class _Side:
     """All keys in one order, in columns that repeat the first and the last key twice."""
 
-    def __init__(self, rows: Rows, run: Run) -> None:
+    def __init__(self, run: Run) -> None:
         self.run = run
-        places = slice(2, -2)
         self.numbers = np.empty((len(NUMBER_FIELDS), len(run) + 4))
         self.rules = np.empty((2, len(run) + 4), np.uint8)
+        self.pieces: list[_Piece] = []
+
+    def reading(self, rows: Rows) -> Iterator[None]:
+        """Read the keys, column by column."""
+        places, run = slice(2, -2), self.run
         for field, column in NUMBER_FIELDS:
             self.numbers[column, places] = run[field]
+            yield
         self.rules[RULE_IN, places], self.rules[RULE_OUT, places] = run["rule_in"], run["rule_out"]
         for columns in (self.numbers, self.rules):
             columns[:, :2], columns[:, -2:] = columns[:, 2:3], columns[:, -3:-2]
@@ -137,8 +161,16 @@ class Shifting:
     def _side(self, rows: Rows, turned: bool) -> _Side:
         """The keys in the order that they were in, or the other way round."""
         if turned not in self._sides:
-            self._sides[turned] = _Side(rows, mirrored(self.keys) if turned else self.keys)
+            side = self._sides[turned] = _Side(mirrored(self.keys) if turned else self.keys)
+            for _ in side.reading(rows):
+                pass
         return self._sides[turned]
+
+    def reading(self, rows: Rows) -> Iterator[None]:
+        """Read the keys in the order that they were in."""
+        side = _Side(self.keys)
+        yield from side.reading(rows)
+        self._sides[False] = side
 
     def fill(self, rows: Rows, task: _Task) -> bool:
         """Fill a grid like that of *rows* with the keys as they become; False if splices must do it."""

@@ -89,20 +89,20 @@ class Known(NamedTuple):
     slots: Slots | None  # the suspects; None: too many
 
     @classmethod
-    def of(cls, rows: Rows, likeness: Likeness, block: int, parts: list[Slots], room: Floats) -> "Known":
-        """Look at the origin of all *rows*, some rows at a time."""
+    def of(cls, rows: Rows, origin: Floats, extent: Extent, block: int, parts: list[Slots], room: Floats) -> "Known":
+        """Look at the *origin* of all *rows*, the numbers of rows of their shape, some rows at a time."""
         lows, highs, slacks, slots = [], [], [], []
         for some in parts:
-            low, high = key_ranges(rows, likeness.origin, some, block)
+            low, high = key_ranges(rows, origin, some, block)
             slack = (high - low) * GENEROUS
             slack[~(slack > ROOM * _slack(low, high))] = np.inf
-            slots.append(suspects(rows, likeness.origin, some, (low + slack, high - slack), room))
+            slots.append(suspects(rows, origin, some, (low + slack, high - slack), room))
             lows.append(low)
             highs.append(high)
             slacks.append(slack)
         found = np.concatenate(slots)
         few = found if len(found) * FEWEST <= rows.size else None
-        return cls(likeness.extent, np.concatenate(lows), np.concatenate(highs), np.concatenate(slacks), few)
+        return cls(extent, np.concatenate(lows), np.concatenate(highs), np.concatenate(slacks), few)
 
     def made(self, likeness: Likeness) -> tuple[Floats, Floats, NDArray[np.int64]] | None:
         """(lowest, highest key of each block, suspects) of what is made of these rows; None if that must be looked for.

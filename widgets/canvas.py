@@ -19,7 +19,7 @@ from widgets.backdrop import SLICE, Backdrop
 from widgets.chosen import MOST
 from widgets.guard import guarded
 from widgets.layers import LAYERS, Plane
-from widgets.layers.drawings import Drawing, changed_drawing, drawing_of
+from widgets.layers.drawings import Drawing, changed_drawing, drawing_of, rows_changed
 from widgets.layers.handles import KNOB, LENGTH, shown_handles
 from widgets.layers.keys import SELECTED
 from widgets.layers.labels import hint_of, labels_of, may_be_named
@@ -307,9 +307,8 @@ class Canvas(QGraphicsItem):
         strip = self._strip(t0, t1, MARK)
         if strip is not None:
             inside = isfinite(t0) and isfinite(t1)  # an extrapolation may be anywhere
-            if inside:
-                self._draw_change(stage, channel, (t0, t1), told, strip, boxes)
-            self._repaint_strip(*strip, self._rows_changed(stage, channel, strip) if inside else None)
+            rows = self._draw_change(stage, channel, (t0, t1), told, strip, boxes) if inside else None
+            self._repaint_strip(*strip, rows)
         for box in boxes:
             self._repaint_near(box, stage.window)
 
@@ -321,37 +320,23 @@ class Canvas(QGraphicsItem):
         told: Drawing | None,
         strip: tuple[int, int],
         boxes: list["Box"],
-    ) -> None:
+    ) -> tuple[float, float] | None:
         """Have at hand what is to be painted of a curve under the hand that has changed between two *times*.
 
-        *told* is what was at hand when the change before was told; nothing else has been made of it since.
+        *told* is what was at hand when the change before was told. Gives the rows of screen pixels in which it was
+        painted last or is to be painted now in the strip; None if they are not known, as before its first step.
         """
         trace = stage.trace_of(channel)
         if trace is None or channel not in self._touched or len(channel) < 2:
-            return
-        now = None if told is None else changed_drawing(stage, trace, told, *times)
-        if now is None:
-            # As far as will be painted, and a little farther.
-            unit = stage.window.unit
-            low = min([strip[0] * unit, *(box[0] - MARK * unit for box in boxes)]) - 4 * unit
-            high = max([strip[1] * unit, *(box[2] + MARK * unit for box in boxes)]) + 4 * unit
-            now = drawing_of(stage, trace, low, high)
-        stage.ready[channel] = now
-
-    def _rows_changed(self, stage: Stage, channel: Channel, strip: tuple[int, int]) -> tuple[float, float] | None:
-        """The rows of screen pixels in which a curve under the hand was painted last or is to be painted in the strip.
-
-        None if that is not known, as before its first step.
-        """
-        before, now = stage.painted.get(channel), stage.ready.get(channel)
-        if before is None or now is None:
             return None
-        unit = stage.window.unit
-        rows, rows_now = (each.rows_between(strip[0] * unit, strip[1] * unit) for each in (before, now))
-        if rows is None or rows_now is None:
-            return None
-        reach = MARK * unit
-        return min(rows[0], rows_now[0]) - reach, max(rows[1], rows_now[1]) + reach
+        unit, reach = stage.window.unit, MARK * stage.window.unit
+        x0, x1 = strip[0] * unit, strip[1] * unit
+        # As far as will be painted, and a little farther.
+        low = min([x0, *(box[0] - reach for box in boxes)]) - 4 * unit
+        high = max([x1, *(box[2] + reach for box in boxes)]) + 4 * unit
+        stage.ready[channel] = changed_drawing(stage, trace, told, times) or drawing_of(stage, trace, low, high)
+        rows = rows_changed(stage, channel, x0, x1)
+        return None if rows is None else (rows[0] - reach, rows[1] + reach)
 
     def _repaint_near(self, box: "Box", window: Window) -> None:
         """Repaint what lies in a box of screen pixels, and marks around it."""

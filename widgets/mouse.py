@@ -21,7 +21,7 @@ from widgets.graph import Graph
 from widgets.guard import guarded
 from widgets.strokes import State, Strokes
 from widgets.tools import TOOLS
-from widgets.tools.base import ALT, Button, Modifier, Point, Tool
+from widgets.tools.base import ALT, Button, EditDrag, Modifier, Point, Tool
 from widgets.tools.navigate import Navigation, Rest, edge_push, pinched, wheeled
 
 EDGE_INTERVAL = 16
@@ -59,6 +59,8 @@ class MouseRouter(QObject):
         self._edge.timeout.connect(self._scroll)
         self._later = QTimer(self, singleShot=True, interval=0)
         self._later.timeout.connect(self._refresh)
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self._go_on)
         self._calm = QTimer(self, singleShot=True, interval=CALM_INTERVAL)
         self._calm.timeout.connect(self._hover_again)
         self._shown = self.tool
@@ -87,7 +89,7 @@ class MouseRouter(QObject):
 
     def forget(self) -> None:
         """Stop listening to the document: the view is gone, and the document may live on."""
-        for timer in (self._later, self._calm, self._edge):
+        for timer in (self._later, self._soon, self._calm, self._edge):
             if isValid(timer):
                 timer.stop()
         document, session = self.graph.document, self.graph.document.session
@@ -144,6 +146,7 @@ class MouseRouter(QObject):
 
     def _move(self, event: QMouseEvent) -> bool:
         self.strokes.move(self._point_of(event), event.buttons())
+        self._follow()
         return self._taken(event)
 
     def _release(self, event: QMouseEvent) -> bool:
@@ -242,7 +245,21 @@ class MouseRouter(QObject):
         if self._pointer is not None:
             spot, held = self._pointer
             self.strokes.move(self._point(spot), held)
+            self._follow()
             self._tell()
+
+    def _follow(self) -> None:
+        """Move a drag again soon that could not follow the pointer yet."""
+        drag = None if self.strokes.tool is None else self.strokes.tool.current
+        if isinstance(drag, EditDrag) and drag.waiting:
+            self._soon.start()
+        else:
+            self._soon.stop()
+
+    @guarded()
+    def _go_on(self) -> None:
+        if self.busy:
+            self._again()
 
     def _taken(self, event: QEvent) -> bool:
         self._watch_edge()

@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from model.change import Change, Shift, Splice
-from model.channel import MOST, Channel
+from model.channel import Channel
 from model.clip import Clip
 from model.hermite import LARGEST, Floats
 from model.keyframe import KEY_DTYPE, Run, TangentRule
 from model.mapping import Added, Mapping, Stretched, mirrored
 from model.placing import placed, rounding_slack, slack_at, strictly_increasing
 from model.selection import Selection
+from model.short_ways import MOST
 
 # Seconds that a key which must not pass its neighbour stays away from it.
 TICK = 1e-9

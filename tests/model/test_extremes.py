@@ -149,7 +149,9 @@ def test_no_suspect_of_what_a_drag_makes_is_missing(seed: int, kind: int) -> Non
             if rows.likeness is None:
                 continue
             with np.errstate(all="ignore"):
-                made = suspects.Known.of(rows, rows.likeness, 8, [every], room).made(rows.likeness)
+                made = suspects.Known.of(rows, rows.likeness.origin, rows.likeness.extent, 8, [every], room).made(
+                    rows.likeness
+                )
                 if made is None:
                     continue
                 low, high = suspects.key_ranges(rows, rows.number_grid, every, 8)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import model.channel
+import model.short_ways
 from model import edits, placing, rows
 from model.change import Change, Setting, Shift, Splice, unshifted
 from model.channel import Channel, Reach
@@ -171,7 +171,7 @@ def test_every_step_of_a_drag_of_most_keys_is_what_splices_make(
     chosen = [Selection.of({each: picked}) for each in channels]
     documents = [Document(Clip([each])) for each in channels]
     gestures = [document.begin("Drag") for document in documents]
-    kept, model.channel.MOST_RESORTED = model.channel.MOST_RESORTED, 0
+    kept, model.short_ways.MOST_RESORTED = model.short_ways.MOST_RESORTED, 0
     try:
         for step in steps:
             gestures[0].preview(lambda clip, s=step: s(clip, chosen[0]))
@@ -180,7 +180,7 @@ def test_every_step_of_a_drag_of_most_keys_is_what_splices_make(
             assert gestures[0].hides_keys == gestures[1].hides_keys
             assert gestures[0].keys_fewer == gestures[1].keys_fewer
     finally:
-        model.channel.MOST_RESORTED = kept
+        model.short_ways.MOST_RESORTED = kept
     if keep:
         made = [gesture.commit() for gesture in gestures]
         assert (made[0] is None) == (made[1] is None)
@@ -197,7 +197,7 @@ def test_every_step_of_a_drag_of_most_keys_is_what_splices_make(
 
 @pytest.mark.usefixtures("short_rows")
 def test_most_keys_take_the_short_way_unless_they_pass_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(model.channel, "MOST_RESORTED", 0)
+    monkeypatch.setattr(model.short_ways, "MOST_RESORTED", 0)
     channel = Channel("x", make_run(np.arange(60.0), np.sin(np.arange(60.0))))
     document, chosen = Document(Clip([channel])), Selection.of({channel: np.delete(np.arange(1, 61), [7, 30])})
     opening = all_bytes(channel)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from model.channel import Channel
 from model.lines import TOLERANCE, Line, line_through
 from model.sampling import Window, columns
 from widgets.traces import Trace
@@ -66,20 +67,34 @@ def drawing_of(stage: "Stage", trace: Trace, x0: float, x1: float) -> Drawing:
     return Drawing(channel.revision, x0, x1, line_of(window, trace, x0, x1), None)
 
 
-def changed_drawing(stage: "Stage", trace: Trace, before: Drawing, t0: float, t1: float) -> Drawing | None:
-    """What a curve in columns looks like after a change between two times; None if it has another number of columns."""
+def changed_drawing(stage: "Stage", trace: Trace, before: Drawing | None, times: tuple[float, float]) -> Drawing | None:
+    """What a curve in columns looks like after a change between two times; None if it cannot be made of *before*.
+
+    *before* must be what it looked like when the change before was told: nothing else has changed since.
+    """
     channel, window = trace.channel, stage.window
-    if before.boxes is None or not stage.manner_of(channel).columns:
+    if before is None or before.boxes is None or not stage.manner_of(channel).columns:
         return None
     boxes, (low, high) = before.boxes, _columns_of(window, trace, window.left, window.right)
     if not low < high or len(boxes) != high - low or boxes[0, 0] != int(window.left) + low:
         return None
-    new = boxes_of(window, trace, window.x_from_time(t0), window.x_from_time(t1), inside=True)
+    new = boxes_of(window, trace, *(window.x_from_time(time) for time in times), inside=True)
     if len(new):
         first = int(new[0, 0]) - int(boxes[0, 0])
         boxes = boxes.copy()
         boxes[first : first + len(new)] = new
     return before._replace(revision=channel.revision, boxes=boxes)
+
+
+def rows_changed(stage: "Stage", channel: Channel, x0: float, x1: float) -> tuple[float, float] | None:
+    """The highest and lowest y, between two x, of a curve as painted last or as at hand; None if one is unknown."""
+    before, now = stage.painted.get(channel), stage.ready.get(channel)
+    if before is None or now is None:
+        return None
+    rows, rows_now = before.rows_between(x0, x1), now.rows_between(x0, x1)
+    if rows is None or rows_now is None:
+        return None
+    return min(rows[0], rows_now[0]), max(rows[1], rows_now[1])
 
 
 def line_of(window: Window, trace: Trace, x0: float, x1: float) -> Line:

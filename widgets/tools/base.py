@@ -1,11 +1,13 @@
 """Tool and Drag: what the mouse does now, and one gesture of it from press to end."""
 
+from time import perf_counter
 from typing import ClassVar, Final, NamedTuple, Protocol
 
 from PySide6.QtCore import Qt
 
-from model.document import Gesture
+from model.document import MANY_KEYS, Gesture
 from model.labels import counted
+from model.selection import Selection
 from widgets.graph import Graph
 from widgets.hit_test import EMPTY, Hit
 
@@ -16,6 +18,9 @@ Cursor = Qt.CursorShape
 SHIFT: Final[int] = Modifier.ShiftModifier.value
 CTRL: Final[int] = Modifier.ControlModifier.value
 ALT: Final[int] = Modifier.AltModifier.value
+
+# How long a drag that is not ready yet may hold up the window.
+SLICE: Final = 0.02
 
 type Axes = tuple[bool, bool]  # time, value
 
@@ -77,14 +82,35 @@ class Drag(Protocol):
 class EditDrag:
     """A drag that changes the clip: one document gesture, one undo step.
 
-    Subclasses call this __init__ last: an error in theirs must not leave a gesture open.
+    Subclasses call this __init__ last: an error in theirs must not leave a gesture open. With very many keys selected
+    the first step would take longer than the hand may wait: what it begins with is got ready before.
     """
 
     cursor: ClassVar[Qt.CursorShape] = Cursor.ClosedHandCursor
 
-    def __init__(self, graph: Graph, label: str) -> None:
+    def __init__(self, graph: Graph, label: str, selection: Selection = Selection.NONE) -> None:
         self.graph = graph
         self.gesture: Gesture = graph.document.begin(label)
+        self._preparing = self.gesture.prepared(selection) if selection.count >= MANY_KEYS else None
+
+    @property
+    def waiting(self) -> bool:
+        """Whether it must be moved again soon, since it has not followed yet."""
+        return self._preparing is not None
+
+    def prepare(self) -> bool:
+        """Go on for some steps; False if there is nothing left to get ready, and it can be moved."""
+        end = perf_counter() + SLICE
+        while self._preparing is not None:
+            if next(self._preparing, self) is self:
+                self._preparing = None
+            elif perf_counter() > end:
+                break
+        return self.waiting
+
+    def move(self, point: Point) -> None:
+        """The pointer is at *point*: preview from the gesture's start."""
+        raise NotImplementedError
 
     @property
     def scrolls(self) -> Axes:
@@ -99,6 +125,10 @@ class EditDrag:
 
     def finish(self, point: Point) -> None:
         """Commit; a gesture that changed nothing leaves no undo step."""
+        if self.waiting:
+            while self.prepare():
+                pass
+            self.move(point)
         self.gesture.commit()
 
     def cancel(self) -> None:
@@ -130,7 +160,8 @@ class Tool:
         if self.current is None:
             assert self.pressed is not None
             self.current = self.drag_from(self.pressed)
-        self.current.move(point)
+        if not (isinstance(self.current, EditDrag) and self.current.prepare()):
+            self.current.move(point)
 
     def release(self, point: Point) -> None:
         """The drag ended where it was meant to."""

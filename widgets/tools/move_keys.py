@@ -23,7 +23,7 @@ class MoveKeys(EditDrag):
         self.channel, self.anchor_time = anchor.channel, anchor.time
         self.steering = Steering(graph, start)
         self.d_time = self.d_value = 0.0
-        super().__init__(graph, f"Move {counted(session.selection.count, 'key')}")
+        super().__init__(graph, f"Move {counted(session.selection.count, 'key')}", session.selection)
 
     def move(self, point: Point) -> None:
         """Preview the keys where the pointer has taken them."""

@@ -76,7 +76,7 @@ class ScaleKeys(EditDrag):
         self.steering = Steering(graph, start)
         self.selection, self.pivot, self.grip, self.axes = selection, pivot, grip, axes
         self.factors = 1.0, 1.0
-        super().__init__(graph, f"{self.verb} {counted(selection.count, 'key')}")
+        super().__init__(graph, f"{self.verb} {counted(selection.count, 'key')}", selection)
 
     def move(self, point: Point) -> None:
         """Preview the keys stretched so far that the grip is under the pointer."""

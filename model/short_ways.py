@@ -1,0 +1,89 @@
+"""The ways to change keys of a channel alike that are shorter than splices; each gives the bits that splices give.
+
+They begin at the start of a gesture, and are for one key that is only moved, for most of very many keys, or for many of
+not very many that are only moved; where two keys come near to each other, splices must tell which one stays.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from model import shifting, splicing
+from model.extrapolation import Extrapolation
+from model.hopping import hop
+from model.keyframe import Run
+from model.mapping import Added, Mapping
+from model.resorting import MOST_RESORTED, Resorting
+from model.rewinding import Start
+from model.rows import Rows
+
+# Where a smaller share of very many keys changes, splices are quicker.
+MOST = 0.6
+
+# All keys of a channel, some of which are given.
+type AllKeys = Callable[[Run], Run]
+
+
+class Shifted(NamedTuple):
+    """The same (t0, t1); whether the keys are in the order they were; neighbours as they were, and as they are given.
+
+    Where they are very many, they are all keys, and what is given is left out. A single key comes alone, with the times
+    (t0, t1) of what depends on it where it is now.
+    """
+
+    t0: float
+    t1: float
+    same_order: bool
+    before: Run
+    after: Run | None
+    near: tuple[float, float] | None = None
+
+
+def shifted(
+    rows: Rows,
+    start: Start,
+    before: Run,
+    mapping: Mapping,
+    slack: float,
+    all_keys: AllKeys,
+    pre: Extrapolation,
+    post: Extrapolation,
+) -> Shifted | None:
+    """Change the keys *before*; None, and nothing has changed, where two come within *slack* s or splices are due."""
+    if len(before) == 1 and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
+        hopped = hop(rows, before, mapping.time.amount, mapping.value.amount, slack, pre, post)
+        return None if hopped is None else Shifted(hopped.t0, hopped.t1, not hopped.passed, before, None, hopped.near)
+    after = None
+    if _are_most(rows, before):
+        rank0, rank1, same_order, chosen = 0, rows.size, not mapping.mirrored, before
+        before = all_keys(chosen)
+        old = splicing.outer(rows, 0, rows.size)
+        if not shifting.shift(rows, start, before, chosen, mapping, slack):
+            return None
+    elif rows.size <= MOST_RESORTED and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
+        if start.resorting is None or start.resorting.keys is not before:
+            start.resorting = Resorting(rows, before)
+        resorting = start.resorting
+        resorted = resorting.moved(mapping.time, mapping.value, slack)
+        if resorted is None:
+            return None
+        rank0, rank1, order = resorted
+        old = splicing.outer(rows, rank0, rank1)
+        resorting.store(rows, start, order)
+        before, same_order = resorting.run[rank0:rank1], order is None
+        after = resorting.given(resorted)
+    else:
+        return None
+    old_times = float(before["time"][0]), float(before["time"][-1])
+    t0, t1 = splicing.reach(rows, rank0, rank1, old, old_times, pre, post)
+    return Shifted(t0, t1, same_order, before, after)
+
+
+def _are_most(rows: Rows, keys: Run) -> bool:
+    """Whether *keys* are so many of very many that all are written anew."""
+    return rows.many and len(keys) >= (MOST if rows.size > MOST_RESORTED else 1.0) * rows.size
+
+
+def prepared(rows: Rows, start: Start, keys: Run, all_keys: AllKeys) -> Iterator[None]:
+    """In steps, before the first change of these keys: what each begins with, where that takes as long as a change."""
+    if _are_most(rows, keys):
+        yield from shifting.prepared(rows, start, all_keys(keys))
