@@ -119,6 +119,8 @@ def test_every_step_of_a_drag_of_all_keys_is_what_the_splice_makes(
     document.changed.connect(lambda _, t0, t1: told.append((t0, t1)))
     one = Selection.of({channel: chosen.ids(channel)[:: n // 2]})
     gesture = document.begin("Drag")
+    if seed % 2:
+        assert list(gesture.prepared(chosen))
     for place, step in enumerate(steps):
         if place % 3 == 0:
             # Marks are written over the keys that a step before has left behind.
@@ -171,6 +173,8 @@ def test_every_step_of_a_drag_of_most_keys_is_what_splices_make(
     chosen = [Selection.of({each: picked}) for each in channels]
     documents = [Document(Clip([each])) for each in channels]
     gestures = [document.begin("Drag") for document in documents]
+    if seed % 2:
+        assert list(gestures[0].prepared(chosen[0]))
     kept, model.short_ways.MOST_RESORTED = model.short_ways.MOST_RESORTED, 0
     try:
         for step in steps:
