@@ -6,10 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.channel import Channel
+from model.keyframe import Run
 from model.selection import Ids
 
 if TYPE_CHECKING:
+    from widgets.layers.keys import Marks
     from widgets.stage import Stage
+    from widgets.traces import Trace
 
 # With more selected keys in view than this, handles would hide the curves; and keys are read as columns.
 MOST: Final = 64
@@ -50,6 +53,23 @@ class Sight(NamedTuple):
     revision: int
     ids: Ids
     boxes: NDArray[np.int32]
+
+
+class Seen(NamedTuple):
+    """The selected keys of a channel in the window, and when they were read."""
+
+    revision: int
+    ids: Ids
+    run: Run
+
+
+class Crowd(NamedTuple):
+    """What there is to be seen of more than MOST selected keys, and of what that was worked out."""
+
+    chosen: "tuple[tuple[Trace, Ids], ...]"
+    revisions: tuple[int, ...]
+    merged: "list[tuple[Trace, Ids]]"  # those that are too many for marks
+    marks: "Marks | None"
 
 
 def few_chosen(stage: "Stage", channel: Channel, ids: Ids) -> tuple[ChosenKey, ...]:

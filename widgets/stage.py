@@ -13,7 +13,7 @@ from model.document import Document
 from model.keyframe import Run
 from model.sampling import Window, keys_in
 from model.selection import Ids, Selection
-from widgets.chosen import Reading, Sight
+from widgets.chosen import Crowd, Reading, Seen, Sight
 from widgets.graph import Frame
 from widgets.hit_test import Hit
 from widgets.numbers import is_angle
@@ -24,7 +24,7 @@ from widgets.words import Words, words_in
 
 if TYPE_CHECKING:
     from widgets.layers.drawings import Drawing
-    from widgets.layers.handles import Box, Hands
+    from widgets.layers.handles import Box, Handles, Hands
 
 
 @dataclass(slots=True)
@@ -96,6 +96,10 @@ class Stage:
     hands: dict[Channel, "Hands"] = field(default_factory=dict)
     # What very many selected keys cover, and whether they were all of their channel when they were painted last.
     sights: dict[Channel, Sight] = field(default_factory=dict)
+    seen_keys: dict[Channel, Seen] = field(default_factory=dict)
+    crowd: Crowd | None = None
+    # The handles of such a crowd that are in view, and the crowd that they were worked out for.
+    crowd_hands: "tuple[Crowd, list[tuple[Trace, Handles]]] | None" = None
     wholly: dict[Channel, bool] = field(default_factory=dict)
     # The channels with keys.
     filled: set[Channel] = field(init=False)
@@ -129,7 +133,10 @@ class Stage:
         if window == stage.window:
             return stage
         ticks = ticks_of(window, stage.words(LABEL_SIZE).width, degrees=stage.degrees)
-        own: dict[str, Any] = {name: {} for name in ("manners", "sights", "wholly", "hands", "ready", "painted")}
+        own: dict[str, Any] = {
+            name: {} for name in ("manners", "sights", "seen_keys", "wholly", "hands", "ready", "painted")
+        }
+        own |= {"crowd": None, "crowd_hands": None}
         return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], **own)
 
     def manner_of(self, channel: Channel) -> Manner:

@@ -48,12 +48,13 @@ def test_each_step_of_a_drag_leaves_the_pixels_of_a_full_repaint(
     for stroke in range(6):
         place = (0, keys - 1, *rng.integers(0, keys, 4).tolist())[stroke]
         one, some = (Selection.of({channel: np.sort(chosen)}) for chosen in (ids[place : place + 1], ids[place::7][:5]))
-        document.session.selection = one if stroke % 3 else some
+        many = Selection.of({each: each.run()["id"][::2] for each in document.clip.channels[::-1]})
+        document.session.selection = (some, one, one, many)[stroke % 4]
         with document.begin("Move") as gesture:
             at = np.zeros(2)
             for step in range(9):
                 at = at * 0.5 + rng.normal(size=2) * (0.05, 0.3) if step % 3 else rng.normal(size=2) * (3.0, 1.0)
-                chosen = some if step == 4 else one
+                chosen = (some if stroke % 4 < 3 else many) if step == 4 else one
                 if step == 5:  # changes as far as the view reaches, and so does going back from there
                     chosen = Selection.of({channel: ids[:1]})
                 gesture.preview(lambda clip, c=chosen, d=at: edits.move(clip, c, float(d[0]), float(d[1])))

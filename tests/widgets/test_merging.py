@@ -17,7 +17,8 @@ from model.selection import Selection
 from tests.widgets.screens import Pixels, Screen, view_of
 from widgets.curve_view import CurveView
 from widgets.hit_test import hit
-from widgets.layers.keys import CELL, MOST_SELECTED, one_a_cell
+from widgets.layers.keys import CELL
+from widgets.layers.selected_keys import MOST_SELECTED, one_a_cell
 from widgets.view_range import ViewRange
 
 COUNT: Final = 1_000_000
@@ -167,7 +168,7 @@ def cells_of(run: Run, window: Window) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_strips_of_very_many_selected_keys_meet_the_rest(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("widgets.layers.keys.MOST_SELECTED", 50)
+    monkeypatch.setattr("widgets.layers.selected_keys.MOST_SELECTED", 50)
     rng = np.random.default_rng(2)
     channel = Channel("c", make_run(np.arange(3000) / 100, rng.normal(size=3000)))
     view = view_of(Clip([channel]))
@@ -181,3 +182,23 @@ def test_strips_of_very_many_selected_keys_meet_the_rest(qtbot: QtBot, monkeypat
         gesture.preview(lambda clip, step=step: edits.move(clip, middle, 0.0, step))
         assert (screen.shown() == screen.painted_anew()).all()
     gesture.cancel()
+
+
+def test_a_strip_takes_its_part_of_many_selected_keys_and_reads_none(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rng = np.random.default_rng(3)
+    clip = Clip([Channel(f"c{i}", make_run(np.arange(40.0), rng.normal(size=40))) for i in range(30)])
+    view = view_of(clip)
+    qtbot.addWidget(view)
+    screen, session = Screen(view), view.document.session
+    session.selection = Selection.of_all(clip.channels)
+    before = screen.shown()
+    asked: list[str] = []
+    for name in ("keys_between", "keys_of", "count_between"):
+        monkeypatch.setattr(Channel, name, lambda self, *args, n=name, **kwargs: asked.append(n) or self.run())
+    session.playhead = 20.5
+    screen.refresh()
+    assert asked == []
+    session.playhead = 0.0
+    assert (screen.shown() == before).all()

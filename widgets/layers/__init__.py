@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 from PySide6.QtGui import QPainter
 
-from widgets.layers import curves, extrapolation, grid, handles, keys, labels, overlays, playhead
+from widgets.layers import curves, extrapolation, grid, handles, keys, labels, overlays, playhead, selected_keys
 from widgets.stage import Stage
 from widgets.traces import Trace
 
@@ -44,7 +44,7 @@ LAYERS: Final = (
     Layer("covered keys", Plane.LIVE, keys.draw_covered_keys),
     Layer("names", Plane.LIVE, labels.draw_labels),
     Layer("handles", Plane.LIVE, handles.draw_handles),
-    Layer("selected keys", Plane.LIVE, keys.draw_selected_keys),
+    Layer("selected keys", Plane.LIVE, selected_keys.draw_selected_keys),
     Layer("hover", Plane.LIVE, overlays.draw_hover),
     Layer("insert preview", Plane.LIVE, overlays.draw_insert_preview),
     Layer("hint", Plane.LIVE, labels.draw_hint),

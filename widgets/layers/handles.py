@@ -16,7 +16,8 @@ from model.sampling import FAR, Window
 from model.selection import Ids
 from widgets.chosen import MOST, ChosenKey, few_chosen, with_neighbours
 from widgets.graph import Spot
-from widgets.layers.keys import SELECTED, selected_between
+from widgets.layers.keys import SELECTED
+from widgets.layers.selected_keys import crowd_of, selected_between
 from widgets.stage import Stage
 from widgets.traces import Trace
 
@@ -89,6 +90,13 @@ def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace
             for time, handles in few_handles(stage, trace.channel, ids)
             if t0 <= time <= t1
         ]
+    crowd = crowd_of(stage)
+    if stage.crowd_hands is None or stage.crowd_hands[0] is not crowd:
+        stage.crowd_hands = crowd, _handles_among_many(stage, t0, t1)
+    return [each for each in stage.crowd_hands[1] if only is None or each[0].channel is only]
+
+
+def _handles_among_many(stage: Stage, t0: float, t1: float) -> list[tuple[Trace, Handles]]:
     chosen = [(trace, ids) for trace, ids in stage.chosen if not trace.channel.locked]
     # As many as there are at least, which is soon told.
     if sum(max(len(ids) - len(t.channel) + t.channel.count_between(t0, t1), 0) for t, ids in chosen) > MOST:
@@ -97,10 +105,9 @@ def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace
     if sum(len(ids) for _, ids in seen) > MOST:
         return []
     return [
-        (trace, handles_of(with_neighbours(trace.channel, key_id), trace.channel, window))
+        (trace, handles_of(with_neighbours(trace.channel, key_id), trace.channel, stage.window))
         for trace, ids in seen
         for key_id in ids
-        if only is None or trace.channel is only
     ]
 
 

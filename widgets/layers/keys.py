@@ -2,21 +2,19 @@
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from math import ceil, floor
-from typing import Final, cast
+from math import floor
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPixmap, QPolygonF
 
-from model.channel import Channel
-from model.keyframe import KeyGoneError, Run, TangentRule
-from model.sampling import FAR, Window
-from widgets.chosen import MOST, Key, Sight, few_chosen, keys_from
-from widgets.layers.drawings import boxes_of
-from widgets.painting import draw_boxes, draw_marks
-from widgets.stage import Stage, chosen
+from model.keyframe import Run, TangentRule
+from model.sampling import FAR
+from widgets.chosen import Key, keys_from
+from widgets.painting import draw_marks
+from widgets.stage import Stage
 from widgets.traces import Trace
 
 # Half the size of a key's mark, in logical pixels.
@@ -27,8 +25,6 @@ SELECTED: Final = 4.6
 CELL: Final = 3.0
 # So many keys are drawn one by one: arrays take longer to set up.
 FEW: Final = 16
-# Of more selected keys than this, those in the same small cell are one mark, which covers them all.
-MOST_SELECTED: Final = 20_000
 
 
 def _diamond(r: float) -> QPainterPath:
@@ -96,75 +92,9 @@ def draw_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: floa
         color = stage.theme.key_locked if channel.locked else trace.color
         radius = stage.px(LIVE if trace.active else REST)
         if len(run) <= FEW:
-            _draw_few(painter, stage, few_told_apart(keys_from(run.tolist()), stage), color, radius)
+            draw_few(painter, stage, few_told_apart(keys_from(run.tolist()), stage), color, radius)
         else:
             _draw_run(painter, stage, run[told_apart(run, stage)], color, radius)
-
-
-def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
-    """The selected keys of all shown channels, larger and over everything; merged ones hide none."""
-    window = stage.window
-    reach = stage.px(SELECTED * 2 + CELL)
-    t0, t1 = window.time_from_x(x0 - reach), window.time_from_x(x1 + reach)
-    color, radius = stage.theme.key_selected, stage.px(SELECTED)
-    if stage.selection.count <= MOST:
-        for trace, ids in stage.chosen:
-            keys = [each.key for each in few_chosen(stage, trace.channel, ids) if t0 <= each.key.time <= t1]
-            _draw_few(painter, stage, keys, color, radius)
-        return
-    runs = []
-    for trace, ids in stage.chosen:
-        if stage.manner_of(trace.channel).merged:
-            draw_merged(painter, stage, trace, ids, x0, x1)
-        else:
-            runs.append(selected_between(trace.channel, ids, t0, t1))
-    if runs:
-        run = _joined(runs)
-        if stage.selection.count > MOST_SELECTED:
-            run = run[one_a_cell(run, stage)]
-        _draw_run(painter, stage, run, color, radius)
-
-
-def _joined(runs: Sequence[Run]) -> Run:
-    # Joining records by numpy's own means compares their fields one by one, each time.
-    whole: Run = np.empty(sum(map(len, runs)), runs[0].dtype)
-    at = 0
-    for run in runs:
-        whole[at : at + len(run)] = run
-        at += len(run)
-    return whole
-
-
-def draw_merged(painter: QPainter, stage: Stage, trace: Trace, ids: NDArray[np.int64], x0: float, x1: float) -> None:
-    """Selected keys that are many in each pixel column, as what they cover there; if they are all, as the curve."""
-    window, channel, color = stage.window, trace.channel, stage.theme.key_selected
-    whole = stage.wholly[channel] = len(ids) == len(channel)
-    if whole:
-        draw_boxes(painter, color, boxes_of(window, trace, x0, x1, inside=True))
-        return
-    known = stage.sights.get(channel)
-    if known is None or known.revision != channel.revision or known.ids is not ids:
-        known = stage.sights[channel] = Sight(channel.revision, ids, _covered(channel, ids, window))
-    boxes = known.boxes
-    seen = slice(*boxes[:, 0].searchsorted((floor(x0) - 1, ceil(x1) + 1)).tolist())
-    draw_boxes(painter, color, boxes[seen])
-
-
-def _covered(channel: Channel, ids: NDArray[np.int64], window: Window) -> NDArray[np.int32]:
-    """What the keys with these ids cover of each pixel column: boxes (n, 4), left to right."""
-    run = channel.keys_between(window.t0, window.t1)
-    chosen_ids = np.zeros(int(max(run["id"].max(initial=0), ids[-1])) + 1, np.bool_)
-    chosen_ids[ids] = True
-    (places,) = chosen_ids.take(run["id"]).nonzero()
-    with np.errstate(over="ignore"):
-        x = np.clip(np.floor(window.x_from_time(run["time"].take(places))), -FAR, FAR)
-        y = np.clip(np.floor(window.y_from_value(run["value"].take(places))), -FAR, FAR)
-    if not len(x):
-        return np.empty((0, 4), np.int32)
-    first = np.concatenate(([0], np.flatnonzero(x[1:] != x[:-1]) + 1))
-    left = x.take(first)
-    boxes = (left, np.minimum.reduceat(y, first) - 1.0, left, np.maximum.reduceat(y, first) + 1.0)
-    return np.stack(boxes, axis=1).astype(np.int32)
 
 
 def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: float, x1: float) -> None:
@@ -177,18 +107,6 @@ def draw_covered_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace], 
             painter.setOpacity(0.6)
             _draw_run(painter, stage, run, stage.theme.ghost, stage.px(REST))
             painter.setOpacity(1.0)
-
-
-def selected_between(channel: Channel, ids: NDArray[np.int64], t0: float, t1: float) -> Run:
-    """The selected keys from *t0* to *t1*, by whichever way touches fewer keys."""
-    if len(ids) < 64 and len(ids) * 16 < channel.count_between(t0, t1):
-        try:
-            few = channel.keys_of(ids)
-        except KeyGoneError:  # some are hidden by a drag
-            few = channel.keys_of([key_id for key_id in ids.tolist() if key_id in channel])
-        return few[(few["time"] >= t0) & (few["time"] <= t1)]
-    run = channel.keys_between(t0, t1)
-    return run if len(ids) == len(channel) else cast("Run", run[chosen(run, ids)])
 
 
 def told_apart(run: Run, stage: Stage) -> NDArray[np.bool_]:
@@ -217,24 +135,8 @@ def few_told_apart(keys: list[Key], stage: Stage) -> list[Key]:
     return kept
 
 
-def one_a_cell(run: Run, stage: Stage) -> NDArray[np.intp]:
-    """The last key of each small cell of the picture, in their order; what lies above or below it is left out."""
-    window, cell = stage.window, stage.px(CELL)
-    with np.errstate(over="ignore"):
-        column = np.floor(run["time"] * (window.px_per_second / cell))
-        row = np.floor((window.y_from_value(run["value"]) - window.top) / cell)
-    rim = int(4 * SELECTED / CELL)
-    high = int(window.height / cell) + 1 + 2 * rim
-    inside = np.flatnonzero((row >= -rim) & (row < high - rim))
-    if not len(inside):
-        return inside
-    column, row = column[inside] - column[inside].min(), row[inside] + rim
-    last = np.full((int(column.max()) + 1) * high, -1, np.intp)
-    last[(column * high + row).astype(np.intp)] = inside
-    return np.sort(last[last >= 0])
-
-
-def _draw_few(painter: QPainter, stage: Stage, keys: list[Key], color: QColor, radius: float) -> None:
+def draw_few(painter: QPainter, stage: Stage, keys: list[Key], color: QColor, radius: float) -> None:
+    """The marks of a few keys, one by one."""
     if not keys:
         return
     window = stage.window
@@ -248,15 +150,28 @@ def _draw_few(painter: QPainter, stage: Stage, keys: list[Key], color: QColor, r
             painter.drawPixmap(floor(x) - half, floor(y) - half, atlas, which * side, 0, side, side)
 
 
-def _draw_run(painter: QPainter, stage: Stage, run: Run, color: QColor, radius: float) -> None:
+class Marks(NamedTuple):
+    """Where marks are to be drawn, in pixels, and which ones of an atlas."""
+
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    which: NDArray[np.intp]
+
+
+def marks_of(run: Run, stage: Stage, radius: float) -> Marks:
+    """The marks of these keys, as far as they are neither above nor below the window."""
     window = stage.window
     with np.errstate(over="ignore"):
         x = np.clip(np.floor(window.x_from_time(run["time"])), -FAR, FAR) + 0.5
         y = np.clip(np.floor(window.y_from_value(run["value"])), -FAR, FAR) + 0.5
     inside = (y > window.top - 3 * radius) & (y < window.bottom + 3 * radius)
     which = run["rule_in"].astype(np.intp) * len(SHAPES) + run["rule_out"]
+    return Marks(x[inside], y[inside], which[inside])
+
+
+def _draw_run(painter: QPainter, stage: Stage, run: Run, color: QColor, radius: float) -> None:
     atlas, side = atlas_of(color.rgba(), stage.theme.key.rgba(), radius)
-    draw_marks(painter, atlas, side, x[inside], y[inside], which[inside])
+    draw_marks(painter, atlas, side, *marks_of(run, stage, radius))
 
 
 @lru_cache(maxsize=256)
