@@ -87,3 +87,6 @@ def prepared(rows: Rows, start: Start, keys: Run, all_keys: AllKeys) -> Iterator
     """In steps, before the first change of these keys: what each begins with, where that takes as long as a change."""
     if _are_most(rows, keys):
         yield from shifting.prepared(rows, start, all_keys(keys))
+    elif len(keys) > 1 and rows.size <= MOST_RESORTED:
+        start.resorting = Resorting(rows, keys)
+        yield

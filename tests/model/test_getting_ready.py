@@ -2,7 +2,8 @@
 
 import pytest
 
-from model.change import Shift
+from model import edits
+from model.change import Shift, unshifted
 from model.clip import Clip
 from model.document import Document
 from model.selection import Selection
@@ -35,3 +36,14 @@ def test_the_first_step_of_a_drag_that_has_got_ready_is_what_the_splice_makes(st
     for sides, bytes_ in ((edit.inverse(), opening), (edit, None), (edit.inverse(), opening)):
         document.apply(sides)
         assert all_bytes(channel) == bytes_ if bytes_ is not None else everything(document.clip) == shown
+
+
+def test_the_first_step_of_a_drag_of_some_keys_of_many_channels_is_what_splices_make() -> None:
+    channels, twins = ([channel_of(seed, 60, 2, 1.0) for seed in range(5)] for _ in range(2))
+    chosen = [Selection.of({each: each.run()["id"][::2] for each in some}) for some in (channels, twins)]
+    gestures = [Document(Clip(some)).begin("Drag") for some in (channels, twins)]
+    assert len(list(gestures[0].prepared(chosen[0]))) == 2 * len(channels)
+    for d_time in (0.375, 40.0):
+        gestures[0].preview(lambda clip, d=d_time: edits.move(clip, chosen[0], d, 1.0))
+        gestures[1].preview(lambda clip, d=d_time: unshifted(edits.move(clip, chosen[1], d, 1.0)))
+        assert list(map(all_bytes, channels)) == list(map(all_bytes, twins))
