@@ -134,7 +134,9 @@ def _pieces(table: Floats, sideways: float) -> tuple[NDArray[np.intp], NDArray[n
     # The slope is 0 between the ends if it changes sides, or twice if it bends back and reaches 0 between: for that it
     # must first come nearer to 0, so that the third derivative has the slope's sign.
     turning = ~(rise > 0.0)
-    turning |= (cubic > 0.0) & ((b < 0.0) != (bend < 0.0)) & ~(b * b < cubic)
+    twice = ~turning
+    twice &= (cubic > 0.0) & ((b < 0.0) != (bend < 0.0)) & ~(b * b < cubic)
+    turning |= twice
     # A chord leaves a cubic by an eighth of the second derivative times its length squared.
     np.abs(bend, out=bend)
     np.maximum(bend, np.abs(b), out=bend)
@@ -149,6 +151,7 @@ def _pieces(table: Floats, sideways: float) -> tuple[NDArray[np.intp], NDArray[n
     most *= stretch
     stretch -= 1.0
     stretch *= 2.0
+    stretch += twice
     np.maximum(most, stretch, out=most)
     np.minimum(pieces, most, out=pieces)
     if not pieces.max() <= MOST_PIECES:
@@ -212,9 +215,33 @@ def _set_extrema(u: Floats, cba: Floats, n: NDArray[np.intp], first: NDArray[np.
     n -= 1
     np.minimum(at, n, out=at)
     np.maximum(at, 1, out=at)
+    both = inside[0] & inside[1]
+    if both.any():
+        _part(at, place, n, inside, both)
     at += first
     at -= 1
     u[at] = place
+
+
+def _part(
+    at: NDArray[np.intp],
+    place: Floats,
+    most: NDArray[np.intp],
+    inside: NDArray[np.bool_],
+    both: NDArray[np.bool_],
+) -> None:
+    """Give the two extrema of each of some spans a point each, of the points 1 to *most* inside it."""
+    # Those of the first kind come first in the columns, then those of the second.
+    first = inside[0].cumsum()[both] - 1
+    second = inside[1].cumsum()[both] - 1 + int(np.count_nonzero(inside[0]))
+    same = at[first] == at[second]
+    first, second = first[same], second[same]
+    earlier = np.where(place[first] < place[second], first, second)
+    later = first + second - earlier
+    room = at[later] < most[later]
+    at[later[room]] += 1
+    crowded = earlier[~room]
+    at[crowded] = np.maximum(at[crowded] - 1, 1)
 
 
 def kept_near(x: Floats, y: Floats, counts: NDArray[np.intp]) -> Line:

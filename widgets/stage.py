@@ -43,6 +43,9 @@ class Overlay:
 LABEL_SIZE: Final = 0.88
 
 
+# Among many curves hard lines through up to so many keys in each pixel column take the place of what it covers exactly:
+# they may lie in the column beside it, but that would take three times as long.
+HARD: Final = 3.0
 # Keys nearer to each other than this on average leave no room for marks, or for dashes, which every key begins anew.
 CROWD: Final = 3.0
 UNDASHED: Final = 4.0
@@ -54,6 +57,7 @@ class Manner(NamedTuple):
     """How a channel is drawn for its number of keys in the window; when this changes, all of it looks different."""
 
     columns: bool
+    hard_columns: bool  # of hard lines among many
     undashed: bool
     unmarked: bool
     merged: bool
@@ -146,6 +150,11 @@ class Stage:
             known = self.manners[channel] = (channel.revision, manner_in(self.window, channel))
         return known[1]
 
+    def in_columns(self, trace: Trace) -> bool:
+        """Whether a curve is drawn as what it covers of each pixel column."""
+        manner = self.manner_of(trace.channel)
+        return manner.hard_columns if trace.among_many and not trace.soft else manner.columns
+
     @property
     def degrees(self) -> bool:
         """Whether values are read in degrees, where radians are stored."""
@@ -185,7 +194,8 @@ def manner_in(window: Window, channel: Channel) -> Manner:
     """How a window shows a channel."""
     count, width = keys_in(channel, window), window.width
     dense = count * window.unit
-    return Manner(count > width, dense * UNDASHED > width, dense * CROWD > width, count > width * MERGED)
+    columns, hard_columns, merged = (count > width * most for most in (1.0, HARD, MERGED))
+    return Manner(columns, hard_columns, dense * UNDASHED > width, dense * CROWD > width, merged)
 
 
 def unit_of(traces: Sequence[Trace]) -> str:

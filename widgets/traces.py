@@ -34,6 +34,7 @@ class Trace(NamedTuple):
     width: float
     soft: bool
     active: bool
+    among_many: bool = False
 
     def pixels(self, unit: float) -> int:
         """The line's thickness in whole pixels of the screen, 1 to 4."""
@@ -83,7 +84,7 @@ def traces_of(document: Document, theme: Theme) -> tuple[Trace, ...]:
         elif alike[own.rgba()] > 1:  # a second code beside the colour, only where two of the shown curves have the same
             dash = tuple(DASH_UNIT * length for length in dashes[index])
         width, soft_too = (2.0, True) if channel is active else (1.0, soft)
-        traces.append(Trace(channel, index, color, faint, dash, width, soft_too, channel is active))
+        traces.append(Trace(channel, index, color, faint, dash, width, soft_too, channel is active, not dashed))
     return tuple(sorted(traces, key=lambda trace: trace.active))
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from model.channel import Channel
+from model.channel import Channel, Spans
 from model.extrapolation import Extrapolation
 from model.keyframe import TangentRule, make_run
 from model.lines import TOLERANCE, Line, dashes, kept_near, line_through, lines_through, straight_dashes
@@ -244,4 +244,22 @@ def test_a_narrow_span_is_cut_only_where_it_turns() -> None:
         run = make_run(times, values, into, out, TangentRule.FIXED, TangentRule.FIXED)
         line = line_through(Channel("c", run).spans_between(0.0, 1.4), window, 0.8)
         pieces[name] = len(line.x) - 1
-    assert pieces == {"bends": 1, "bends back": 1, "turns": 2, "turns twice": 2}
+    assert pieces == {"bends": 1, "bends back": 1, "turns": 2, "turns twice": 3}
+
+
+@pytest.mark.parametrize("bend", [0.02, 0.3, 1.0])
+@pytest.mark.parametrize("shift", np.linspace(-0.4, 0.4, 9).tolist())
+def test_both_extrema_of_a_narrow_span_are_points_of_its_chain(bend: float, shift: float) -> None:
+    window = Window(0, 0, 400, 400, 0, 400, -50, 50)
+    # Its derivative is 0 at two places in the middle, which come near to each other.
+    middle, reach = 0.5 + shift * 0.5, 0.2 * bend
+    u0, u1 = max(middle - reach, 0.01), min(middle + reach, 0.99)
+    a, b, c = 1.0, -1.5 * (u0 + u1), 3.0 * u0 * u1
+    large = 30.0 / max(abs(a * u**3 + b * u**2 + c * u) for u in (u0, u1, 1.0))
+    columns = (0.0, 0.9, a * large, b * large, c * large, 0.0)
+    line = line_through(Spans(*(np.array([number]) for number in columns)), window, 0.8)
+    ends = [(a * u**3 + b * u**2 + c * u) * large for u in (u0, u1)]
+    if abs(ends[0] - ends[1]) > 1.0:  # else no more than a quarter of a pixel is missing
+        for value in ends:
+            assert np.abs(line.y - window.y_from_value(value)).min() < 1e-6
+    assert (np.diff(line.x) >= 0.0).all()

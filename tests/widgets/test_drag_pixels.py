@@ -90,3 +90,23 @@ def test_most_of_a_dense_curve_is_at_hand_from_step_to_step(qtbot: QtBot, monkey
         steps = asked.copy()
         gesture.cancel()
     assert 0 < max(steps) < 30
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("keys", [700, 1_300, 3_000])
+def test_a_key_of_each_of_many_curves_is_dragged_without_a_stale_pixel(qtbot: QtBot, keys: int, ratio: float) -> None:
+    rng = np.random.default_rng(keys)
+    times = np.sort(rng.uniform(0.0, 10.0, (30, keys)), axis=1)
+    clip = Clip([Channel(f"c{i}", make_run(times[i], rng.normal(size=keys))) for i in range(30)], end=10.0)
+    view = view_of(clip)
+    qtbot.addWidget(view)
+    screen, document = Screen(view, ratio), view.document
+    chosen = Selection.of({each: each.run()["id"][keys // 2 : keys // 2 + 1] for each in clip.channels})
+    document.session.selection = chosen
+    with document.begin("Move") as gesture:
+        for d_time in (0.05, 1.3, 1.35, -2.0):
+            gesture.preview(lambda clip, d=d_time: edits.move(clip, chosen, d, 0.5 * d))
+            screen.refresh()
+        assert (screen.shown() == screen.painted_anew()).all()
+        gesture.cancel()
+    assert (screen.shown() == screen.painted_anew()).all()

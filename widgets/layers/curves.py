@@ -35,7 +35,7 @@ def draw_curves(painter: QPainter, stage: Stage, traces: Sequence[Trace], x0: fl
             ends = channel.ends()
             if ends is None or ends.time1 < t0 or ends.time0 > t1 or len(channel) < 2:
                 continue
-            if stage.manner_of(channel).columns:
+            if stage.in_columns(trace):
                 draw_boxes(painter, trace.color, boxes_of(window, trace, x0, x1, inside=True))
                 continue
             spans = channel.spans_between(t0, t1)
@@ -54,7 +54,7 @@ def draw_curve(painter: QPainter, stage: Stage, trace: Trace, color: QColor, x0:
     window, channel = stage.window, trace.channel
     if len(channel) < 2:
         return
-    if stage.manner_of(channel).columns:
+    if stage.in_columns(trace):
         draw_boxes(painter, color, boxes_of(window, trace, x0, x1, inside=True))
     else:
         draw_line(painter, window, line_of(window, trace, x0, x1), trace, color, width, _dash_of(stage, trace))

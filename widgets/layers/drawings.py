@@ -60,7 +60,7 @@ class Drawing(NamedTuple):
 def drawing_of(stage: "Stage", trace: Trace, x0: float, x1: float) -> Drawing:
     """The curve of a channel of two keys or more between two x; it is drawn as the whole window says."""
     channel, window = trace.channel, stage.window
-    if stage.manner_of(channel).columns:
+    if stage.in_columns(trace):
         # All that can be seen, so that steps that follow find most of it at hand.
         boxes = boxes_of(window, trace, window.left, window.right, inside=True)
         return Drawing(channel.revision, -inf, inf, None, boxes)
@@ -73,7 +73,7 @@ def changed_drawing(stage: "Stage", trace: Trace, before: Drawing | None, times:
     *before* must be what it looked like when the change before was told: nothing else has changed since.
     """
     channel, window = trace.channel, stage.window
-    if before is None or before.boxes is None or not stage.manner_of(channel).columns:
+    if before is None or before.boxes is None or not stage.in_columns(trace):
         return None
     boxes, (low, high) = before.boxes, _columns_of(window, trace, window.left, window.right)
     if not low < high or len(boxes) != high - low or boxes[0, 0] != int(window.left) + low:
