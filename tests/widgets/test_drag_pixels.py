@@ -11,8 +11,10 @@ from model.channel import Channel
 from model.clip import Clip
 from model.extrapolation import Extrapolation
 from model.keyframe import TangentRule, make_run
+from model.sampling import Window, columns
 from model.selection import Selection
 from tests.widgets.screens import Screen, view_of
+from widgets.layers import drawings
 
 RATIOS: Final = (1.0, 1.5, 2.0)
 
@@ -75,16 +77,15 @@ def test_most_of_a_dense_curve_is_at_hand_from_step_to_step(qtbot: QtBot, monkey
     document.session.active, document.session.selection = channel, chosen
     screen.refresh()
     asked: list[int] = []
-    envelope = Channel.envelope
 
-    def counted(self: Channel, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        asked.append(len(edges))
-        return envelope(self, edges)
+    def counted(channel: Channel, window: Window, first: int, last: int, *, inside: bool) -> tuple[np.ndarray, ...]:
+        asked.append(last - first)
+        return columns(channel, window, first, last, inside=inside)
 
     with document.begin("Move") as gesture:
         for step in range(6):
             if step == 2:
-                monkeypatch.setattr(Channel, "envelope", counted)
+                monkeypatch.setattr(drawings, "columns", counted)
             gesture.preview(lambda clip, d=step: edits.move(clip, chosen, 1.0 + 0.01 * d, 0.1))
             screen.refresh()
         steps = asked.copy()
