@@ -158,9 +158,9 @@ class Gesture:
         self.tell(news)
 
     def prepared(self, selection: Selection) -> Iterator[None]:
-        """In short steps: have at hand what previews that change the *selection* begin with."""
+        """In short steps, as long as it is open: have at hand what previews that change the *selection* begin with."""
         for channel in selection.channels:
-            if not channel.locked:
+            if not channel.locked and self.open:
                 self._hold(channel)
                 yield from channel.prepared(selection.ids(channel))
 

@@ -258,8 +258,12 @@ class MouseRouter(QObject):
 
     @guarded()
     def _go_on(self) -> None:
-        if self.busy:
-            self._again()
+        try:
+            if self.busy:
+                self._again()
+        except Exception:
+            self.cancel()  # an error must not leave half a gesture behind
+            raise
 
     def _taken(self, event: QEvent) -> bool:
         self._watch_edge()
@@ -276,7 +280,10 @@ class MouseRouter(QObject):
         if tool is None or point is None or self.graph.document.working:
             return
         drag = tool.current
-        self._say(drag.hint if drag is not None else tool.hints(tool.hovered, self._modifiers))
+        if isinstance(drag, EditDrag) and drag.waiting:
+            self._say(drag.waiting_hint)
+        else:
+            self._say(drag.hint if drag is not None else tool.hints(tool.hovered, self._modifiers))
         shape = drag.cursor if drag is not None else tool.cursor(tool.hovered, self._modifiers)
         if self.graph.viewport().cursor().shape() != shape:
             self.graph.viewport().setCursor(shape)

@@ -1,11 +1,13 @@
 """Tool and Drag: what the mouse does now, and one gesture of it from press to end."""
 
+from collections.abc import Callable
 from time import perf_counter
 from typing import ClassVar, Final, NamedTuple, Protocol
 
 from PySide6.QtCore import Qt
 
 from model.document import MANY_KEYS, Gesture
+from model.gesture import Compute
 from model.labels import counted
 from model.selection import Selection
 from widgets.graph import Graph
@@ -92,6 +94,13 @@ class EditDrag:
         self.graph = graph
         self.gesture: Gesture = graph.document.begin(label)
         self._preparing = self.gesture.prepared(selection) if selection.count >= MANY_KEYS else None
+        self._count = selection.count
+        self._at_once = False
+
+    @property
+    def waiting_hint(self) -> str:
+        """What is said meanwhile."""
+        return f"Getting {counted(self._count, 'key')} ready · Esc: cancel"
 
     @property
     def waiting(self) -> bool:
@@ -108,9 +117,20 @@ class EditDrag:
                 break
         return self.waiting
 
+    def pass_by(self, point: Point) -> None:
+        """The pointer is at *point*, and nothing can follow it yet."""
+
     def move(self, point: Point) -> None:
         """The pointer is at *point*: preview from the gesture's start."""
         raise NotImplementedError
+
+    def preview(self, compute: Compute, label: str | Callable[[], str]) -> None:
+        """Show what *compute* gives; or make it, if the button went up before anything could be shown."""
+        if self._at_once:
+            text = label() if callable(label) else label
+            self.graph.document.do(text, compute, keys=self._count)
+        else:
+            self.gesture.preview(compute, label=label)
 
     @property
     def scrolls(self) -> Axes:
@@ -124,12 +144,20 @@ class EditDrag:
         return f" · lands on {counted(covered, 'key')}, which would go" if covered else ""
 
     def finish(self, point: Point) -> None:
-        """Commit; a gesture that changed nothing leaves no undo step."""
-        if self.waiting:
-            while self.prepare():
-                pass
-            self.move(point)
-        self.gesture.commit()
+        """Commit; a gesture that changed nothing leaves no undo step.
+
+        What could not follow yet is made at length, as a command would be: with progress, and Esc takes it back.
+        """
+        try:
+            if self.waiting:
+                self._preparing, self._at_once = None, True
+                self.gesture.cancel()
+                self.move(point)
+            else:
+                self.gesture.commit()
+        except BaseException:
+            self.gesture.cancel()  # nobody else would: the stroke is over
+            raise
 
     def cancel(self) -> None:
         """Take every preview back."""
@@ -160,8 +188,11 @@ class Tool:
         if self.current is None:
             assert self.pressed is not None
             self.current = self.drag_from(self.pressed)
-        if not (isinstance(self.current, EditDrag) and self.current.prepare()):
-            self.current.move(point)
+        current = self.current
+        if isinstance(current, EditDrag) and current.prepare():
+            current.pass_by(point)
+        else:
+            current.move(point)
 
     def release(self, point: Point) -> None:
         """The drag ended where it was meant to."""

@@ -25,6 +25,10 @@ class MoveKeys(EditDrag):
         self.d_time = self.d_value = 0.0
         super().__init__(graph, f"Move {counted(session.selection.count, 'key')}", session.selection)
 
+    def pass_by(self, point: Point) -> None:
+        """Only steer."""
+        self.steering.steer(point)
+
     def move(self, point: Point) -> None:
         """Preview the keys where the pointer has taken them."""
         document = self.graph.document
@@ -38,7 +42,7 @@ class MoveKeys(EditDrag):
         def moved(clip: Clip) -> Iterable[Change]:
             return edits.move(clip, selection, d_time, d_value, reorder=reorder)
 
-        self.gesture.preview(moved, label=lambda: document.label_of("Move", selection, d_time, d_value))
+        self.preview(moved, lambda: document.label_of("Move", selection, d_time, d_value))
         self.d_time, self.d_value = d_time, d_value
 
     @property

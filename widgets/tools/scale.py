@@ -78,6 +78,10 @@ class ScaleKeys(EditDrag):
         self.factors = 1.0, 1.0
         super().__init__(graph, f"{self.verb} {counted(selection.count, 'key')}", selection)
 
+    def pass_by(self, point: Point) -> None:
+        """Only steer."""
+        self.steering.steer(point, locks=all(self.axes))
+
     def move(self, point: Point) -> None:
         """Preview the keys stretched so far that the grip is under the pointer."""
         session, clip = self.graph.document.session, self.graph.document.clip
@@ -92,9 +96,7 @@ class ScaleKeys(EditDrag):
         def scaled(clip: Clip) -> Iterable[Change]:
             return edits.scale(clip, selection, pivot[0], pivot[1], f_time, f_value)
 
-        self.gesture.preview(
-            scaled, label=f"{self.verb} {counted(selection.count, 'key')} by {self._amount(f_time, f_value)}"
-        )
+        self.preview(scaled, f"{self.verb} {counted(selection.count, 'key')} by {self._amount(f_time, f_value)}")
         self.factors = f_time, f_value
 
     def time_factor(self, factor: float) -> float:
@@ -113,9 +115,8 @@ class ScaleKeys(EditDrag):
     @property
     def hint(self) -> str:
         """The factors so far."""
-        return (
-            f"{self._amount(*self.factors)}{self.landing} · Shift: one axis · Ctrl: no snap · Alt: fine · Esc: cancel"
-        )
+        one_axis = " · Shift: one axis" if all(self.axes) else ""
+        return f"{self._amount(*self.factors)}{self.landing}{one_axis} · Ctrl: no snap · Alt: fine · Esc: cancel"
 
 
 class ScaleTool(SelectTool):
