@@ -8,6 +8,7 @@ from shiboken6 import isValid
 
 from model.channel import Channel
 from model.document import Edit, Splice
+from model.extrapolation import EXTRAPOLATIONS
 from model.labels import counted, keys_text
 from widgets.fitting import MARGINS
 from widgets.soon import Soon
@@ -103,6 +104,8 @@ class Watcher(QObject):
     def _committed(self, edit: Edit) -> None:
         if edit.replaced:  # keys nobody pointed at are gone: say so where it is seen
             self._window.say(edit.label)
+        elif repeats_more(edit):
+            self._window.say(f"{edit.label}: what is repeated outside the keys has become longer")
         elif beside := fixed_beside(edit):
             keys = "the key beside it is" if beside == 1 else f"{counted(beside, 'key')} beside it are"
             self._window.say(f"{edit.label}: {keys} fixed now, so that the curve keeps its shape")
@@ -126,6 +129,18 @@ class Watcher(QObject):
         first, last = channel.first, channel.last
         if first is not None and last is not None:
             self._window.view.set_view(fitted(first.time, last.time, *channel.extrema(), MARGINS))
+
+
+def repeats_more(edit: Edit) -> bool:
+    """Whether it adds a first or last key to a curve that is repeated before or after."""
+    for change in edit.changes:
+        if isinstance(change, Splice) and len(change.before) < len(change.after) <= MOST_BESIDE:
+            channel, old = change.channel, set(change.before["id"].tolist())
+            ends = {key.id for key in (channel.first, channel.last) if key is not None}
+            repeats = any(EXTRAPOLATIONS[mode].repeats for mode in (channel.pre, channel.post))
+            if repeats and ends & (set(change.after["id"].tolist()) - old):
+                return True
+    return False
 
 
 def fixed_beside(edit: Edit) -> int:

@@ -84,6 +84,7 @@ class Document:
         If *keys*, about as many as it changes, are many, `long_work` runs *compute* and makes the changes; None also
         if that was cancelled.
         """
+        selected = self.session.selection
         try:
             with self.begin(label) as gesture:
                 channels = len(self.session.selection.channels) if keys else 0
@@ -93,6 +94,8 @@ class Document:
                     gesture.tell(self._at_length(label, partial(gesture.make, compute, selection)))
         except CancelledError:
             return None
+        if gesture.edit is None:
+            self.session.selection = selected
         return gesture.edit
 
     def apply(self, edit: Edit) -> None:

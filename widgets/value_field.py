@@ -93,6 +93,8 @@ class ValueField(QLineEdit):
             self.setText(text)
             if self._opening_text is not None:
                 self.selectAll()
+            else:
+                self.setCursorPosition(0)  # where there is no room for all of it, the sign must be seen
         if self._opening_text is not None:
             self._opening_text = text
         if placeholder != self.placeholderText():

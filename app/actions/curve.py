@@ -52,7 +52,7 @@ CURVE_ACTIONS = (
         function=_insert_key,
         shortcuts=("Shift+S",),
         icon="insert-key",
-        tip="Insert a key at the playhead on the active channel; the curve keeps its shape",
+        tip="Insert a key at the playhead on the active channel; the curve keeps its shape between the keys",
         needs=(AN_ACTIVE_CHANNEL, ACTIVE_IS_SHOWN),
     ),
     *(

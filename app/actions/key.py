@@ -37,9 +37,18 @@ def _has_option(name: str, window: "MainWindow") -> bool:
 
 def _key_at_playhead(window: "MainWindow") -> None:
     channels, time = editable_channels(window), window.session.playhead
-    label = f"Key {channels_text(channels)} at {time:.6g} s"
+    bare = [channel for channel in channels if channel.key_at(time) is None]
+    label = f"Key {channels_text(bare or channels)} at {time:.6g} s"
     if window.document.do(label, lambda clip: edits.key_all(clip, channels, time), selection=added_keys) is None:
         window.say(f"There are keys at {time:.6g} s already")
+
+
+def _frames(count: float) -> str:
+    return "1 frame" if count == 1.0 else f"{count:g} frames"
+
+
+def _value_steps(count: float) -> str:
+    return f"{VALUE_STEP * count:g}, or by {count:g}° for angles"
 
 
 def _nudge_time(frames: float, window: "MainWindow") -> None:
@@ -88,7 +97,7 @@ KEY_ACTIONS = (
         function=_key_at_playhead,
         shortcuts=("S", "I"),
         icon="insert-key",
-        tip="Insert a key at the playhead on every shown channel; the curves keep their shape",
+        tip="Insert a key at the playhead on every shown channel; the curves keep their shape between the keys",
         needs=(EDITABLE_CHANNELS,),
         begins_group=True,
     ),
@@ -99,15 +108,15 @@ KEY_ACTIONS = (
             label=f"Nudge {label}{factor}",
             function=partial(nudge, sign * count),
             shortcuts=(f"{held}{key}",),
-            tip=f"Move the selected keys {where} by {count:g} {step}",
+            tip=f"Move the selected keys {where} by {step(count)}",
             needs=(SELECTED_KEYS,),
             begins_group=not size and name != "earlier",
         )
         for name, label, key, nudge, sign, where, step in (
-            ("earlier", "Earlier", ",", _nudge_time, -1, "back", "frames"),
-            ("later", "Later", ".", _nudge_time, +1, "on", "frames"),
-            ("up", "Up", "Up", _nudge_value, +1, "up", "steps of 0.1, or of 1° for angles"),
-            ("down", "Down", "Down", _nudge_value, -1, "down", "steps of 0.1, or of 1° for angles"),
+            ("earlier", "Earlier", ",", _nudge_time, -1, "back", _frames),
+            ("later", "Later", ".", _nudge_time, +1, "on", _frames),
+            ("up", "Up", "Up", _nudge_value, +1, "up", _value_steps),
+            ("down", "Down", "Down", _nudge_value, -1, "down", _value_steps),
         )
         for size, held, count, factor in NUDGES
     ),

@@ -59,10 +59,14 @@ def meanwhile(work: Callable[[], None]) -> Iterator[None]:
             errors.append(error)
 
     helper = threading.Thread(target=do, name="side by side", daemon=True)
-    helper.start()
+    try:
+        helper.start()
+    except RuntimeError:  # there can be no more threads
+        do()
     try:
         yield
     finally:
-        helper.join()
+        if helper.ident is not None:
+            helper.join()
     if errors:
         raise errors[0]
