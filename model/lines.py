@@ -208,6 +208,8 @@ def _set_extrema(u: Floats, cba: Floats, n: NDArray[np.intp], first: NDArray[np.
     np.divide(c, q, out=places[1])
     inside = places > 0.0
     inside &= places < 1.0
+    (both,) = (inside[0] & inside[1]).nonzero()
+    pairs = places.take(both, axis=1), n.take(both) - 1, first.take(both)
     (some,) = inside.reshape(-1).nonzero()
     place = places.reshape(-1).take(some)
     n, first = n.take(some, mode="wrap"), first.take(some, mode="wrap")
@@ -215,33 +217,28 @@ def _set_extrema(u: Floats, cba: Floats, n: NDArray[np.intp], first: NDArray[np.
     n -= 1
     np.minimum(at, n, out=at)
     np.maximum(at, 1, out=at)
-    both = inside[0] & inside[1]
-    if both.any():
-        _part(at, place, n, inside, both)
     at += first
     at -= 1
     u[at] = place
+    if len(both):
+        _part(u, *pairs)
 
 
-def _part(
-    at: NDArray[np.intp],
-    place: Floats,
-    most: NDArray[np.intp],
-    inside: NDArray[np.bool_],
-    both: NDArray[np.bool_],
-) -> None:
-    """Give the two extrema of each of some spans a point each, of the points 1 to *most* inside it."""
-    # Those of the first kind come first in the columns, then those of the second.
-    first = inside[0].cumsum()[both] - 1
-    second = inside[1].cumsum()[both] - 1 + int(np.count_nonzero(inside[0]))
-    same = at[first] == at[second]
-    first, second = first[same], second[same]
-    earlier = np.where(place[first] < place[second], first, second)
-    later = first + second - earlier
-    room = at[later] < most[later]
-    at[later[room]] += 1
-    crowded = earlier[~room]
-    at[crowded] = np.maximum(at[crowded] - 1, 1)
+def _part(u: Floats, places: Floats, most: NDArray[np.intp], first: NDArray[np.intp]) -> None:
+    """Give both extrema (2, n) of each of some spans a point of their own, of the points 1 to *most* inside it."""
+    ordered = np.empty_like(places)
+    np.minimum(places[0], places[1], out=ordered[0])
+    np.maximum(places[0], places[1], out=ordered[1])
+    at = np.rint(ordered * (most + 1)).astype(np.intp)
+    np.minimum(at, most, out=at)
+    np.maximum(at, 1, out=at)
+    earlier, later = at
+    same = earlier == later
+    room = later < most
+    later += same & room
+    earlier -= same & ~room & (earlier > 1)
+    at += first - 1
+    u[at] = ordered
 
 
 def kept_near(x: Floats, y: Floats, counts: NDArray[np.intp]) -> Line:

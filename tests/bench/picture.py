@@ -138,6 +138,13 @@ def empty_repaint(stack: QStackedWidget) -> Times:
     return step_times(plot.viewport().repaint, 120)
 
 
+def beside_empty(stack: QStackedWidget, measure: Callable[[], Times]) -> tuple[Times, float]:
+    """What *measure* gives, and an empty repaint before and after it: the machine's speed drifts within a run."""
+    before = empty_repaint(stack).median
+    times = measure()
+    return times, (before + empty_repaint(stack).median) / 2.0
+
+
 def obvious_drag(stack: QStackedWidget, clip: Clip) -> Times:
     """The code one writes first: a PlotDataItem and a ScatterPlotItem a channel, and a grid."""
     plot: Any = pg.PlotWidget()
@@ -170,14 +177,13 @@ def obvious_drag(stack: QStackedWidget, clip: Clip) -> Times:
 def drags(stack: QStackedWidget, clips: dict[str, Clip]) -> list[Line]:
     """One key dragged: the whole clip in view, and zoomed in."""
     lines = []
-    empty = empty_repaint(stack)
     for name, clip in clips.items():
         for where, keys_in_view in (("all in view", None), ("30 keys in view", 30), ("3 keys fill the view", 2)):
-            times = drag_times(shown(stack, clip, keys_in_view))
+            times, empty = beside_empty(stack, lambda c=clip, n=keys_in_view: drag_times(shown(stack, c, n)))
             work = f"a drag step of one key, {name}, {where}"
             most = 2e-3 if keys_in_view != 2 else None
             ratio = 1.5 if keys_in_view != 2 else None
-            lines.append(Line(work, times.median, "empty repaint, PlotWidget with axes", empty.median, ratio, most))
+            lines.append(Line(work, times.median, "empty repaint, PlotWidget with axes", empty, ratio, most))
             lines.append(Line(f"{work}, 99 %", times.p99, most=6e-3))
         if len(clip.channels) > 1:
             obvious = obvious_drag(stack, clip)

@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QObject, QPointF
 from PySide6.QtWidgets import QApplication, QStackedWidget, QWidget
 
 from tests.bench.apart import ROOT, lines_of
-from tests.bench.picture import CLIPS, SIZE, Shown, empty_repaint, settle, shown, wander
+from tests.bench.picture import CLIPS, SIZE, Shown, beside_empty, settle, shown, wander
 from tests.bench.table import Line, Times, summed_up
 
 STEPS = 400
@@ -107,12 +107,12 @@ def run() -> list[Line]:
     stack.show()
     stack.activateWindow()
     wait_until(lambda: stack.isActiveWindow(), "the window was not shown")
-    pointer, empty = XPointer(), empty_repaint(stack).median
+    pointer = XPointer()
     lines = []
     for name, make in CLIPS.items():
         clip = make()
         for where, keys_in_view in (("all in view", None), ("30 keys in view", 30)):
-            times = drag_times(shown(stack, clip, keys_in_view), pointer)
+            times, empty = beside_empty(stack, lambda c=clip, n=keys_in_view: drag_times(shown(stack, c, n), pointer))
             work = f"a drag step of one key by X events, {name}, {where}"
             lines.append(Line(work, times.median, "empty repaint, PlotWidget with axes", empty, 1.5, 2e-3))
             lines.append(Line(f"{work}, 99 %", times.p99, most=6e-3))
