@@ -19,8 +19,8 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "performance.md"
 PACKAGES = ("numpy", "scipy", "usd-core", "pyqtgraph", "PySide6-Essentials")
 HEAD = """# Performance
 
-Written by `make bench ARGS=--write`. Every figure stands beside a peer or a floor that was measured in the same run,
-in turn with it; durations are medians, or 99th percentiles where the line says so. A step of a drag, pan or zoom lasts
+Written by `make bench ARGS=--write`. Where there is a peer or a floor, the figure stands beside it, from the same run
+and in turn with it; durations are medians, or 99th percentiles where the line says so. A step of a drag, pan or zoom lasts
 from the event to the end of all the painting that it asks for, in a view of 1600 x 900. At ratio 2 and by X events it
 is measured in processes of their own; by X events on Xvfb with openbox, from the arrival of the event to the end of its
 paint, 8 ms apart. Load and save are what the window does: a save is written, forced onto the disk, read back and
