@@ -20,12 +20,12 @@ PACKAGES = ("numpy", "scipy", "usd-core", "pyqtgraph", "PySide6-Essentials")
 HEAD = """# Performance
 
 Written by `make bench ARGS=--write`. Where there is a peer or a floor, the figure stands beside it, from the same run
-and in turn with it; durations are medians, or 99th percentiles where the line says so. A step of a drag, pan or zoom lasts
-from the event to the end of all the painting that it asks for, in a view of 1600 x 900. At ratio 2 and by X events it
-is measured in processes of their own; by X events on Xvfb with openbox, from the arrival of the event to the end of its
-paint, 8 ms apart. Load and save are what the window does: a save is written, forced onto the disk, read back and
-compared before it takes the place of the old file; a write leaves out reading it back. Starts are whole processes, with
-kept bytecode, and the times of window and picture are what they tell themselves.
+and in turn with it; durations are medians, or 99th percentiles where the line says so. A step of a drag, pan or zoom
+lasts from the event to the end of all the painting that it asks for, in a view of 1600 x 900. At ratio 2 and by X
+events it is measured in processes of their own; by X events on Xvfb with openbox, from the arrival of the event to the
+end of its paint, 8 ms apart. Load and save are what the window does: a save is written, forced onto the disk, read back
+and compared before it takes the place of the old file; a write leaves out reading it back. Starts are whole processes,
+with kept bytecode, and the times of window and picture are what they tell themselves.
 """
 # What stands from here on in the page is written by hand, and stays when the table is written anew.
 BY_HAND = "## What is lost, and why"
