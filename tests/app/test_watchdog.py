@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 import pytest
@@ -23,6 +24,8 @@ from tests.app.heart import Heart
 KEYS = 1_000_000
 MOST_SECONDS = 0.1
 TRIES = 3
+# To add 4,000,000 numbers to others takes so long where the limit was set.
+USUAL_SECONDS = 8e-3
 
 
 @pytest.fixture(scope="module")
@@ -43,15 +46,28 @@ def held_up(work: Callable[[], object], settle: int = 300) -> float:
     return heart.longest
 
 
-def too_long(scenario: Callable[[], dict[str, float]], tries: int = TRIES) -> dict[str, float]:
+def slowness() -> float:
+    """How many times as long as usual memory takes now, 1 at least: it is what drags of very many keys wait for."""
+    a, b, total = np.ones((3, 4_000_000))
+    taken = []
+    for _ in range(3):
+        start = perf_counter()
+        np.add(a, b, out=total)
+        taken.append(perf_counter() - start)
+    return max(min(taken) / USUAL_SECONDS, 1.0)
+
+
+def too_long(
+    scenario: Callable[[], dict[str, float]], tries: int = TRIES, most: float = MOST_SECONDS
+) -> dict[str, float]:
     """The works of *scenario* that hold the window up; each time, since what a busy machine adds is not ours."""
     least: dict[str, float] = {}
     for _ in range(tries):
         for work, pause in scenario().items():
             least[work] = min(pause, least.get(work, pause))
-        if max(least.values()) <= MOST_SECONDS:
+        if max(least.values()) <= most:
             break
-    return {work: pause for work, pause in least.items() if pause > MOST_SECONDS}
+    return {work: pause for work, pause in least.items() if pause > most}
 
 
 def edit_some(window: MainWindow) -> None:
@@ -181,7 +197,7 @@ def test_no_drag_of_a_million_keys_stops_the_window(make_window: MakeWindow, lar
         return pauses
 
     # Memory is what these wait for most, and other programs use it too.
-    assert too_long(scenario, tries=5) == {}
+    assert too_long(scenario, tries=5, most=MOST_SECONDS * slowness()) == {}
 
 
 def test_no_text_of_very_many_keys_stops_the_window(make_window: MakeWindow, large: Path) -> None:
