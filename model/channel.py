@@ -318,7 +318,7 @@ class Channel(Curve):
             yield
         yield from short_ways.prepared(rows, start, keys, self._all_keys)
         if start.shifting is not None and len(keys) == len(self):
-            self._made_again_and_again(start.shifting.extent)
+            self._prepare_extremes(start.shifting.extent)
             yield
 
     def _all_keys(self, chosen: Run) -> Run:

@@ -280,8 +280,8 @@ class Curve:
             self._extremes.begin(self._rows)
         return self._extremes
 
-    def _made_again_and_again(self, extent: Extent) -> None:
-        """Others will be made of all these keys, of this extent, again and again."""
+    def _prepare_extremes(self, extent: Extent) -> None:
+        """Look at all keys, of this extent, before others are made of them again and again."""
         self._the_extremes().prepare(self._rows, extent)
 
 

@@ -71,6 +71,11 @@ class Mapping(NamedTuple):
         return self.value.factor / self.time.factor if self.value.factor != self.time.factor else 1.0
 
     @property
+    def move(self) -> tuple[Added, Added] | None:
+        """What is added to times and values; None if it does more than that."""
+        return (self.time, self.value) if isinstance(self.time, Added) and isinstance(self.value, Added) else None
+
+    @property
     def mirrored(self) -> bool:
         """Whether the keys come to stand in reverse order."""
         return isinstance(self.time, Stretched) and self.time.factor < 0.0

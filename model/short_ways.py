@@ -11,7 +11,7 @@ from model import shifting, splicing
 from model.extrapolation import Extrapolation
 from model.hopping import hop
 from model.keyframe import Run
-from model.mapping import Added, Mapping
+from model.mapping import Mapping
 from model.resorting import MOST_RESORTED, Resorting
 from model.rewinding import Start
 from model.rows import Rows
@@ -49,8 +49,9 @@ def shifted(
     post: Extrapolation,
 ) -> Shifted | None:
     """Change the keys *before*; None, and nothing has changed, where two come within *slack* s or splices are due."""
-    if len(before) == 1 and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
-        hopped = hop(rows, before, mapping.time.amount, mapping.value.amount, slack, pre, post)
+    move = mapping.move
+    if len(before) == 1 and move is not None:
+        hopped = hop(rows, before, move[0].amount, move[1].amount, slack, pre, post)
         return None if hopped is None else Shifted(hopped.t0, hopped.t1, not hopped.passed, before, None, hopped.near)
     after = None
     if _are_most(rows, before):
@@ -59,11 +60,11 @@ def shifted(
         old = splicing.outer(rows, 0, rows.size)
         if not shifting.shift(rows, start, before, chosen, mapping, slack):
             return None
-    elif rows.size <= MOST_RESORTED and isinstance(mapping.time, Added) and isinstance(mapping.value, Added):
+    elif rows.size <= MOST_RESORTED and move is not None:
         if start.resorting is None or start.resorting.keys is not before:
             start.resorting = Resorting(rows, before)
         resorting = start.resorting
-        resorted = resorting.moved(mapping.time, mapping.value, slack)
+        resorted = resorting.moved(*move, slack)
         if resorted is None:
             return None
         rank0, rank1, order = resorted

@@ -63,7 +63,7 @@ class Seen(NamedTuple):
     run: Run
 
 
-class Crowd(NamedTuple):
+class ManySelected(NamedTuple):
     """What there is to be seen of more than MOST selected keys, and of what that was worked out."""
 
     chosen: "tuple[tuple[Trace, Ids], ...]"

@@ -13,7 +13,7 @@ from model.document import Document
 from model.keyframe import Run
 from model.sampling import Window, keys_in
 from model.selection import Ids, Selection
-from widgets.chosen import Crowd, Reading, Seen, Sight
+from widgets.chosen import ManySelected, Reading, Seen, Sight
 from widgets.graph import Frame
 from widgets.hit_test import Hit
 from widgets.numbers import is_angle
@@ -100,11 +100,11 @@ class Stage:
     hands: dict[Channel, "Hands"] = field(default_factory=dict)
     # What very many selected keys cover, and whether they were all of their channel when they were painted last.
     sights: dict[Channel, Sight] = field(default_factory=dict)
-    seen_keys: dict[Channel, Seen] = field(default_factory=dict)
-    crowd: Crowd | None = None
-    # The handles of such a crowd that are in view, and the crowd that they were worked out for.
-    crowd_hands: "tuple[Crowd, list[tuple[Trace, Handles]]] | None" = None
     wholly: dict[Channel, bool] = field(default_factory=dict)
+    # More than a few selected keys: those in view channel by channel, what is seen of all, and their handles in view.
+    seen_keys: dict[Channel, Seen] = field(default_factory=dict)
+    many_selected: ManySelected | None = None
+    many_handles: "tuple[ManySelected, list[tuple[Trace, Handles]]] | None" = None
     # The channels with keys.
     filled: set[Channel] = field(init=False)
     # That of the value ruler.
@@ -140,7 +140,7 @@ class Stage:
         own: dict[str, Any] = {
             name: {} for name in ("manners", "sights", "seen_keys", "wholly", "hands", "ready", "painted")
         }
-        own |= {"crowd": None, "crowd_hands": None}
+        own |= {"many_selected": None, "many_handles": None}
         return replace(stage, window=window, time_ticks=ticks[0], value_ticks=ticks[1], **own)
 
     def manner_of(self, channel: Channel) -> Manner:

@@ -13,6 +13,14 @@ from tests.widgets.hand import ALT, PLAIN, SHIFT
 from widgets.tools.move_keys import MoveKeys
 
 
+def begun(desk: Desk) -> None:
+    """The button is down on one of two selected keys, and the pointer has gone on by (40, -50) pixels."""
+    desk.select(desk.low, 2, 3)
+    spot = desk.spot(desk.low, 3)
+    desk.hand.press(spot)
+    desk.hand.move(beside(spot, 40, -50))
+
+
 @pytest.fixture
 def slow_to_begin(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two keys count as very many."""
@@ -22,10 +30,8 @@ def slow_to_begin(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("slow_to_begin")
 def test_a_drag_of_very_many_keys_follows_by_itself_as_soon_as_it_can(desk: Desk) -> None:
-    desk.select(desk.low, 2, 3)
-    before, spot = desk.keys(), desk.spot(desk.low, 3)
-    desk.hand.press(spot)
-    desk.hand.move(beside(spot, 40, -50))
+    before = desk.keys()
+    begun(desk)
     assert desk.keys() == before
     assert desk.document.gesture is not None
     QTest.qWait(50)
@@ -51,10 +57,8 @@ def test_a_button_that_goes_up_before_very_many_keys_could_follow_leaves_them_wh
 
 @pytest.mark.usefixtures("slow_to_begin")
 def test_a_drag_that_is_cancelled_before_very_many_keys_could_follow_changes_nothing(desk: Desk) -> None:
-    desk.select(desk.low, 2, 3)
-    before, spot = desk.keys(), desk.spot(desk.low, 3)
-    desk.hand.press(spot)
-    desk.hand.move(beside(spot, 40, -50))
+    before = desk.keys()
+    begun(desk)
     desk.view.router.cancel()
     desk.hand.release()
     QTest.qWait(50)
@@ -95,12 +99,9 @@ def test_what_is_held_down_while_very_many_keys_get_ready_counts(
 
 @pytest.mark.usefixtures("slow_to_begin")
 def test_while_very_many_keys_get_ready_the_words_say_so(desk: Desk) -> None:
-    desk.select(desk.low, 2, 3)
-    spot = desk.spot(desk.low, 3)
     hints: list[str] = []
     desk.view.router.hint_changed.connect(hints.append)
-    desk.hand.press(spot)
-    desk.hand.move(beside(spot, 40, -50))
+    begun(desk)
     assert hints[-1] == "Getting 2 keys ready · Esc: cancel"
     QTest.qWait(50)
     assert hints[-1].startswith("dt +")
@@ -117,10 +118,8 @@ def test_an_error_while_very_many_keys_get_ready_leaves_nothing_open(
 
     errors: list[type[BaseException]] = []
     monkeypatch.setattr("sys.excepthook", lambda kind, *_: errors.append(kind))
-    desk.select(desk.low, 2, 3)
-    before, spot = desk.keys(), desk.spot(desk.low, 3)
-    desk.hand.press(spot)
-    desk.hand.move(beside(spot, 40, -50))
+    before = desk.keys()
+    begun(desk)
     if when == "at the release":
         monkeypatch.setattr(MoveKeys, "move", fails)
     else:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication
 from model.channel import Channel
 from model.clip import Clip
 from model.document import Document
+from model.edits import set_field
 from model.keyframe import TangentRule, make_run
 from model.selection import Selection
 from widgets.guard import unguarded
@@ -340,3 +341,16 @@ def test_an_angle_too_large_for_degrees_is_shown_as_the_largest_number(qtbot):
     select(inspector, document, rx=[0])
     assert float(inspector.key.fields["value"].text()) == pytest.approx(1.797e308, rel=1e-2)
     assert values(document, "root.rx") == [1e308, 0.0]
+
+
+def test_a_number_too_long_for_its_field_shows_its_sign(inspector, document):
+    channel = document.clip.channel("root.tx")
+    chosen = Selection.of({channel: channel.run()["id"][1:2]})
+    document.session.selection = chosen
+    field = inspector.key.fields["value"]
+    field.setFixedWidth(48)
+    document.do("Set", lambda clip: set_field(clip, chosen, "value", lambda _: -0.000245525))
+    inspector.key.refresh()
+    assert field.text().startswith("-0.000245")
+    assert field.fontMetrics().horizontalAdvance(field.text()) > field.width()
+    assert field.cursorPosition() == 0, "the text is scrolled to its end"

@@ -17,7 +17,7 @@ from model.selection import Ids
 from widgets.chosen import MOST, ChosenKey, few_chosen, with_neighbours
 from widgets.graph import Spot
 from widgets.layers.keys import SELECTED
-from widgets.layers.selected_keys import crowd_of, selected_between
+from widgets.layers.selected_keys import many_selected, selected_between
 from widgets.stage import Stage
 from widgets.traces import Trace
 
@@ -90,10 +90,10 @@ def shown_handles(stage: Stage, only: Channel | None = None) -> list[tuple[Trace
             for time, handles in few_handles(stage, trace.channel, ids)
             if t0 <= time <= t1
         ]
-    crowd = crowd_of(stage)
-    if stage.crowd_hands is None or stage.crowd_hands[0] is not crowd:
-        stage.crowd_hands = crowd, _handles_among_many(stage, t0, t1)
-    return [each for each in stage.crowd_hands[1] if only is None or each[0].channel is only]
+    many = many_selected(stage)
+    if stage.many_handles is None or stage.many_handles[0] is not many:
+        stage.many_handles = many, _handles_among_many(stage, t0, t1)
+    return [each for each in stage.many_handles[1] if only is None or each[0].channel is only]
 
 
 def _handles_among_many(stage: Stage, t0: float, t1: float) -> list[tuple[Trace, Handles]]:

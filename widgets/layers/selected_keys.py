@@ -12,7 +12,7 @@ from model.channel import Channel
 from model.keyframe import KEY_DTYPE, KeyGoneError, Run
 from model.sampling import FAR, Window
 from model.selection import Ids
-from widgets.chosen import MOST, Crowd, Seen, Sight, few_chosen
+from widgets.chosen import MOST, ManySelected, Seen, Sight, few_chosen
 from widgets.layers.drawings import boxes_of
 from widgets.layers.keys import CELL, SELECTED, Marks, atlas_of, draw_few, marks_of
 from widgets.painting import draw_boxes, draw_marks
@@ -34,11 +34,11 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
             keys = [each.key for each in few_chosen(stage, trace.channel, ids) if t0 <= each.key.time <= t1]
             draw_few(painter, stage, keys, color, radius)
         return
-    crowd = crowd_of(stage)
-    for trace, ids in crowd.merged:
+    many = many_selected(stage)
+    for trace, ids in many.merged:
         draw_merged(painter, stage, trace, ids, x0, x1)
-    if crowd.marks is not None:
-        x, y, which = crowd.marks
+    if many.marks is not None:
+        x, y, which = many.marks
         near = (x >= x0 - reach) & (x <= x1 + reach)
         if not near.all():
             x, y, which = x[near], y[near], which[near]
@@ -46,10 +46,10 @@ def draw_selected_keys(painter: QPainter, stage: Stage, traces: Sequence[Trace],
         draw_marks(painter, atlas, side, x, y, which)
 
 
-def crowd_of(stage: Stage) -> Crowd:
+def many_selected(stage: Stage) -> ManySelected:
     """What there is to be seen of more than a few selected keys; a strip takes its part of it."""
     revisions = tuple([trace.channel.revision for trace, _ in stage.chosen])
-    known = stage.crowd
+    known = stage.many_selected
     if known is not None and known.chosen is stage.chosen and known.revisions == revisions:
         return known
     window, reach = stage.window, stage.px(SELECTED * 2 + CELL)
@@ -61,7 +61,7 @@ def crowd_of(stage: Stage) -> Crowd:
             merged.append((trace, ids))
         else:
             runs.append(_seen_of(stage, trace.channel, ids, t0, t1))
-    known = stage.crowd = Crowd(stage.chosen, revisions, merged, _marks_of(stage, runs))
+    known = stage.many_selected = ManySelected(stage.chosen, revisions, merged, _marks_of(stage, runs))
     return known
 
 
