@@ -24,10 +24,10 @@ type AllKeys = Callable[[Run], Run]
 
 
 class Shifted(NamedTuple):
-    """The same (t0, t1); whether the keys are in the order they were; neighbours as they were, and as they are given.
+    """What was changed from t0 to t1; whether the keys are in the order they were; they and those among them.
 
-    Where they are very many, they are all keys, and what is given is left out. A single key comes alone, with the times
-    (t0, t1) of what depends on it where it is now.
+    *before* is how these were, *after* how they are given; of very many it is all keys, and *after* is left out. A
+    single key comes alone, with the times (*near*) of what depends on it where it is now.
     """
 
     t0: float
